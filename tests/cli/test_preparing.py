@@ -30,6 +30,7 @@ def kinds(**options: object) -> list[str]:
 def test_order_of_the_steps() -> None:
     everything = {
         "crop": "0um:5um,0um:4um",
+        "mask": "rectangle 0um:1um",
         "despike": "6",
         "line_correct": "x",
         "remove_tip": "10nm",
@@ -44,6 +45,7 @@ def test_order_of_the_steps() -> None:
     }
     before = [
         "crop",
+        "mask",
         "despike",
         "line_correct",
         "tip",
@@ -81,9 +83,42 @@ def test_values_of_the_steps() -> None:
     assert names["surface.prepare[3].short"] == "--short-cutoff"
 
 
+def test_regions_of_a_mask() -> None:
+    text = "rectangle 1um:2um,3um:4um; ellipse 5um,3um,2um,1um,30deg;polygon 0um,0um,1um,0um,1um,2um"
+    (mask,) = steps(given(mask=text, mask_invert=True, level="none", fill="none"))
+    assert mask == {
+        "step": "mask",
+        "regions": [
+            {"kind": "rectangle", "x": "1um:2um", "y": "3um:4um"},
+            {"kind": "ellipse", "centre": ["5um", "3um"], "radii": ["2um", "1um"], "angle": "30deg"},
+            {"kind": "polygon", "x": ["0um", "1um", "1um"], "y": ["0um", "0um", "2um"]},
+        ],
+        "invert": True,
+    }
+    (rows,) = steps(given(mask="rectangle ,3um:4um", level="none", fill="none"))
+    assert rows["regions"] == [{"kind": "rectangle", "y": "3um:4um"}]
+
+
+def test_a_masked_scan_is_filled_and_solved(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    options = ("--mask", "rectangle 1um:2um,1um:2um; ellipse 4um,4um,1um,1um", "--save-document", tmp_path / "a.toml")
+    result = run("contact", matrix, *SCALE, *BODY, *LOAD, *options)
+    assert result.exit_code == 0, result.stderr
+    written = load_document(tmp_path / "a.toml").surface.prepare
+    assert [step.step for step in written] == ["mask", "level", "fill"]
+    again = run("contact", "--from", tmp_path / "a.toml", "--out", tmp_path / "run")
+    assert again.exit_code == 0, again.stderr
+    history = load(tmp_path / "run" / "result.nc").problem.surface.origin.history
+    assert any(step.startswith("masked: ") for step in history)
+    for text, subject in (("rectangle 9um:10um", "region 1 of a mask"), ("rectangle 1um:0um", "x of part 1 of --mask")):
+        assert subject_of(run("contact", matrix, *SCALE, *BODY, *LOAD, "--mask", text)) == subject
+
+
 @pytest.mark.parametrize(
     ("options", "subject"),
     [
+        ({"mask": "circle 1um"}, "--mask"),
+        ({"mask": "polygon 1um,1um,2um,2um"}, "--mask"),
+        ({"mask_invert": True}, "--mask-invert"),
         ({"level": "cubic"}, "--level"),
         ({"filter": "spline"}, "--filter spline"),
         ({"filter": "robust"}, "--filter robust"),

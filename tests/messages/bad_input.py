@@ -149,6 +149,12 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     (*BODY, *LOAD, "--crop", "2um:1um,"),
     (*BODY, *LOAD, "--crop", "0:1,"),
     (*BODY, *LOAD, "--crop", "0um:99um,"),
+    (*BODY, *LOAD, "--mask", "circle 1um,1um,1um"),
+    (*BODY, *LOAD, "--mask", "rectangle 2um:1um"),
+    (*BODY, *LOAD, "--mask", "ellipse 1um,1um,1um,0um"),
+    (*BODY, *LOAD, "--mask", "rectangle 9um:10um"),
+    (*BODY, *LOAD, "--mask", "rectangle 0um:8um"),
+    (*BODY, *LOAD, "--mask-invert"),
     (*BODY, *LOAD, "--resample", "many"),
     (*BODY, *LOAD, "--humidity", "60"),
     (*BODY, *LOAD, "--humidity", "60%"),
@@ -503,6 +509,15 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "a plane through a line": lambda: asp.levelled(asp.Surface(np.ones((1, 8)), 1.0)),
     "a crop that ends before its start": lambda: asp.surfaces.cropped(rough((8, 8)), x=(2.0, 1.0)),
     "a crop beyond the surface": lambda: asp.surfaces.cropped(rough((8, 8)), x=(0.0, 99.0)),
+    "a mask without regions": lambda: asp.surfaces.masked(rough((8, 8)), []),
+    "a mask of everything": lambda: asp.surfaces.masked(rough((8, 8)), [asp.surfaces.Rectangle(x=(0.0, 99.0))]),
+    "a mask beyond the surface": lambda: asp.surfaces.masked(rough((8, 8)), [asp.surfaces.Rectangle(x=(98.0, 99.0))]),
+    "a mask of a word": lambda: asp.surfaces.masked(rough((8, 8)), ["left half"]),  # type: ignore[list-item]
+    "an ellipse on a line scan": lambda: asp.surfaces.masked(
+        rough((8, 8)).row(0), [asp.surfaces.Ellipse((1.0, 1.0), (1.0, 1.0))]
+    ),
+    "a rectangle without ends": lambda: asp.surfaces.Rectangle(),
+    "a polygon of two corners": lambda: asp.surfaces.Polygon((0.0, 1.0), (0.0, 1.0)),
     "a line in both directions": lambda: asp.surfaces.sliced(rough((8, 8)), x=0.0, y=0.0),
     "an even window": lambda: asp.surfaces.despiked(rough((8, 8)), window=4),
     "surfaces that do not overlap": lambda: asp.surfaces.on_common_grid(

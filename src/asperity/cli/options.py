@@ -75,6 +75,15 @@ def preparation_options() -> tuple[Option, ...]:
     make, step = own_option, _step_option
     return (
         make("--crop", ("prepare", "crop", "range"), 'part to keep: "0um:5um,0um:4um"', PREPARATION, "X0:X1,Y0:Y1"),
+        make(
+            "--mask",
+            ("prepare", "mask", "regions"),
+            'points to leave out: "rectangle 0um:2um,1um:3um; ellipse 5um,5um,2um,1um,30deg; polygon 0um,0um,4um,0um,'
+            '2um,3um", corners, middle and semi-axes from the corner of the map',
+            PREPARATION,
+            "REGION;...",
+        ),
+        step("--mask-invert", "mask", "invert", ""),
         step("--despike", "despike", "threshold", "mask spikes"),
         step("--line-correct", "line_correct", "axis", "remove offsets between scan lines"),
         step("--remove-tip", "tip", "radius", "reconstruct the surface behind the scan of a tip"),
@@ -365,6 +374,8 @@ def steps(given: Given) -> list[dict[str, Any]]:
         if len(parts) != 2 or not any(parts) or not halved:
             raise InputError(f'--crop must be two ranges of lengths, such as "0um:5um,0um:4um", but is {text!r}.')
         made["crop"] = {axis: pair for axis, part, pair in zip("xy", parts, ends, strict=True) if part}
+    if "mask" in chosen:
+        made["mask"] = _mask(chosen["mask"])
     if "periodise" in chosen:
         made["periodise"] = {}
     if "slice" in chosen:
@@ -380,6 +391,30 @@ def steps(given: Given) -> list[dict[str, Any]]:
         made["filter"] = kept = {"kind": "gaussian", **sieve}
         require.one_of(str(kept["kind"]), _words("filter", "kind"), "--filter")
     return [{"step": step, **values} for step in order if (values := made.get(step)) is not None]
+
+
+def _mask(given: Mapping[str, Any]) -> dict[str, Any]:
+    """The step of ``--mask`` with the tables of its regions."""
+    if "regions" not in given:
+        raise InputError("--mask-invert must be given together with --mask, but is alone.")
+    return {**given, "regions": [_region(part.strip()) for part in str(given["regions"]).split(";") if part.strip()]}
+
+
+def _region(text: str) -> dict[str, Any]:
+    """Table of a region such as ``"ellipse 5um,5um,2um,1um,30deg"``."""
+    kind, _, rest = text.partition(" ")
+    values = [value.strip() for value in rest.split(",")]
+    if kind == "rectangle" and len(values) in (1, 2) and any(values):
+        return {"kind": kind, **{axis: part for axis, part in zip("xy", values, strict=False) if part}}
+    if kind == "ellipse" and len(values) in (4, 5):
+        angle = {"angle": values[4]} if len(values) == 5 else {}
+        return {"kind": kind, "centre": values[:2], "radii": values[2:4], **angle}
+    if kind == "polygon" and len(values) >= 6 and len(values) % 2 == 0:
+        return {"kind": kind, "x": values[::2], "y": values[1::2]}
+    raise InputError(
+        '--mask must be regions such as "rectangle 0um:2um,1um:3um", "ellipse 5um,5um,2um,1um" with its middle and '
+        f'semi-axes, or "polygon 0um,0um,4um,0um,2um,3um" with its corners, and semicolons between, but holds {text!r}.'
+    )
 
 
 def _require_tip(given: Mapping[str, Any]) -> None:
@@ -402,6 +437,7 @@ _OPTIONS_OF_STEPS = MappingProxyType(
     {
         ("tip", "step"): "--remove-tip",
         ("tip_limit", "step"): "--tip-radius",
+        ("mask", "step"): "--mask",
         ("level", "degree"): "--level",
         ("level", "step"): "--level",
     }

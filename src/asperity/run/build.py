@@ -68,6 +68,7 @@ from ..io.schemas.surfaces import (
     LineScanFile,
     ScanFile,
     SurfaceTable,
+    arguments_of,
     prepared,
 )
 from ..parts.part import Part
@@ -398,7 +399,7 @@ def build_line_scan(table: LineScanFile, folder: Path) -> Profile:
     """
     found = read(folder / table.path, **table.reading())
     for step in table.prepare:
-        found = lines_too(step.makes)(found, **step.given("step"))
+        found = lines_too(step.makes)(found, **arguments_of(step))
     if isinstance(found, Profile):
         return found
     if found.shape[1] > 1:

@@ -3,6 +3,7 @@ from .pair import SurfacePair, composite, on_common_grid, turned_over
 from .prepare.extent import cropped, periodised, resampled, sliced, tapered
 from .prepare.filter import filtered, reliability_cutoff, tip_limited
 from .prepare.level import despiked, filled, levelled, line_corrected
+from .prepare.regions import Ellipse, Polygon, Rectangle, masked
 from .prepare.tip import (
     ConicalTip,
     MeasuredTip,
@@ -21,11 +22,14 @@ from .surface import Surface, strip
 
 __all__ = [
     "ConicalTip",
+    "Ellipse",
     "Grid",
     "Instrument",
     "MeasuredTip",
     "ParabolicTip",
+    "Polygon",
     "Profile",
+    "Rectangle",
     "Scan",
     "Scans",
     "SphericalTip",
@@ -41,6 +45,7 @@ __all__ = [
     "filtered",
     "levelled",
     "line_corrected",
+    "masked",
     "on_common_grid",
     "periodised",
     "read",

@@ -41,7 +41,7 @@ from ..run.execute import analysed, execute
 from ..run.refusals import refusals
 from ..run.stored import load_outcome
 from ..studies.campaign import prepare_study
-from ..surfaces.characterise.heights import height_parameters
+from ..surfaces.characterise.heights import height_parameters, peak_to_valley, rms_height
 from ..surfaces.characterise.summary import characterise
 from ..surfaces.profile import Profile
 from ..surfaces.profile_summary import characterise_profile
@@ -49,14 +49,11 @@ from ..surfaces.read import channels
 from ..surfaces.scans import Scans
 from ..surfaces.surface import Surface
 from .draft import Keys, place_in
+from .previews import kept, stages, thinned
 from .progress import Reported, Watch
 from .views import Views, theory_curves
 
 Task: TypeAlias = Mapping[str, Any]
-
-MOST_SHOWN = 512
-"""Points of a preview along its longer side; larger surfaces are thinned out, and the page says
-so."""
 
 
 def guarded(work: Callable[[Task], dict[str, Any]]) -> Callable[[Task], dict[str, Any]]:
@@ -109,27 +106,35 @@ def inspect(task: Task) -> dict[str, Any]:
 @guarded
 def surface(task: Task) -> dict[str, Any]:
     """The surface of the document ``table`` after ``steps`` of its preparation, as a picture in
-    numbers at ``out``."""
-    found = _built(task)
-    values = np.asarray(found.heights, dtype=float)
-    step = max(1, math.ceil(max(values.shape) / MOST_SHOWN))
-    thin = values[::step, ::step].astype("<f4")
-    missing = getattr(found, "mask", None)
-    if missing is not None and np.any(missing):
-        thin = thin.copy()
-        thin[np.asarray(missing)[::step, ::step]] = np.nan
-    Path(task["out"]).write_bytes(np.ascontiguousarray(thin.T).tobytes())
-    heights = height_parameters(found)
+    numbers at ``out``, all its heights beside it.
+
+    With ``since``, the number of steps before those that are looked at, also what these do, and
+    instead of the surface after them that before, or the heights removed, as ``show`` says.
+    """
+    table, since, out = _table(task), task.get("since"), Path(task["out"])
+    count = len(table.prepare)
+    found = stages(table, Path(task["folder"]), count if since is None else min(since, count), count)
+    told = {} if since is None else {"words": found.words(), "cutoffs": dict(found.cutoffs)}
+    shown = {"before": found.before, "removed": found.removed}.get(task.get("show", ""), found.after)
+    if shown is None:
+        return {"nothing": found.words(), **told}
+    heights = np.asarray(shown.heights, dtype=float)
+    thin, step = thinned(heights)
+    out.write_bytes(np.ascontiguousarray(thin.T).tobytes())
+    kept(heights, out.with_suffix(".npy"))
     return {
         "shape": list(thin.shape),
-        "full": list(values.shape),
-        "spacing": [step * spacing for spacing in found.grid.spacing],
-        "size": list(found.size),
+        "full": list(heights.shape),
+        "spacing": [step * spacing for spacing in shown.grid.spacing],
+        "pixel": list(shown.grid.spacing),
+        "size": list(shown.size),
         "step": step,
-        "rows": [[str(label), str(text)] for label, text in surface_rows(found)],
-        "history": [str(text) for text in found.origin.history],
-        "Sq": heights.Sq,
-        "Sz": heights.Sz,
+        "missing": shown.n_missing,
+        "rows": [[str(label), str(text)] for label, text in surface_rows(shown)],
+        "history": [str(text) for text in shown.origin.history],
+        "Sq": rms_height(shown),
+        "Sz": peak_to_valley(shown),
+        **told,
     }
 
 

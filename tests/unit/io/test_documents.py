@@ -61,11 +61,41 @@ TEXTS = st.text(st.characters(codec="utf-8"), min_size=1, max_size=12).filter(la
 POSITIVE = st.floats(1e-300, 1e300)
 COUNTS = st.integers(1, 10**6)
 POINTS = st.lists(COUNTS, min_size=2, max_size=2)
+
+
+def pairs(values: st.SearchStrategy[Any]) -> st.SearchStrategy[list[Any]]:
+    return st.lists(values, min_size=2, max_size=2)
+
+
+def threes(values: st.SearchStrategy[Any]) -> st.SearchStrategy[list[Any]]:
+    return st.lists(values, min_size=3, max_size=3)
+
+
 STEPS = st.one_of(
     st.fixed_dictionaries(
         {"step": st.just("level")}, optional={"form": st.sampled_from(["mean", "plane", "quadratic"])}
     ),
     st.fixed_dictionaries({"step": st.just("crop"), "x": st.just(["0 nm", "1.5 um"])}),
+    st.fixed_dictionaries(
+        {
+            "step": st.just("mask"),
+            "regions": st.lists(
+                st.one_of(
+                    st.fixed_dictionaries({"kind": st.just("rectangle"), "y": st.just(["0 nm", "1.5 um"])}),
+                    st.fixed_dictionaries(
+                        {"kind": st.just("ellipse"), "centre": pairs(LENGTHS), "radii": pairs(LENGTHS)},
+                        optional={"angle": st.builds("{} deg".format, st.floats(-180.0, 180.0))},
+                    ),
+                    st.fixed_dictionaries(
+                        {"kind": st.just("polygon"), "x": threes(LENGTHS), "y": threes(LENGTHS)},
+                    ),
+                ),
+                min_size=1,
+                max_size=3,
+            ),
+        },
+        optional={"invert": st.booleans()},
+    ),
     st.fixed_dictionaries({"step": st.just("resample"), "points": POINTS}),
     st.fixed_dictionaries(
         {"step": st.just("fill")}, optional={"method": st.sampled_from(["harmonic", "mean", "nearest"])}

@@ -535,6 +535,28 @@ def test_files_start_at_the_folder_of_the_document(tmp_path: Path) -> None:
     [
         ({"step": "level", "degree": 4, "robust": True}, lambda s: asp.levelled(s, 4, robust=True)),
         ({"step": "despike", "threshold": 3.0, "window": 3}, lambda s: asp.surfaces.despiked(s, 3.0, window=3)),
+        (
+            {
+                "step": "mask",
+                "regions": [
+                    {"kind": "rectangle", "x": ["1 um", "2 um"], "y": "3um:4um"},
+                    {"kind": "ellipse", "centre": ["5 um", "3 um"], "radii": "2um,1um", "angle": "30 deg"},
+                    {"kind": "polygon", "x": ["0 um", "1 um", "1 um"], "y": ["0 um", "0 um", "2 um"]},
+                ],
+            },
+            lambda s: asp.surfaces.masked(
+                s,
+                [
+                    asp.surfaces.Rectangle(x=(1e-6, 2e-6), y=(3e-6, 4e-6)),
+                    asp.surfaces.Ellipse((5e-6, 3e-6), (2e-6, 1e-6), angle=np.radians(30.0)),
+                    asp.surfaces.Polygon((0.0, 1e-6, 1e-6), (0.0, 0.0, 2e-6)),
+                ],
+            ),
+        ),
+        (
+            {"step": "mask", "regions": [{"kind": "rectangle", "x": ["1 um", "2 um"]}], "invert": True},
+            lambda s: asp.surfaces.masked(s, [asp.surfaces.Rectangle(x=(1e-6, 2e-6))], invert=True),
+        ),
         ({"step": "line_correct", "axis": "y"}, lambda s: asp.surfaces.line_corrected(s, "y")),
         (
             {"step": "filter", "short": "1 um", "short_y": "1.5 um", "long": "3 um", "kind": "robust", "order": 1},

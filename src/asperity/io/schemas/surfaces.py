@@ -39,6 +39,7 @@ from ...surfaces.generate.power_laws import Amplitude
 from ...surfaces.prepare.extent import cropped, periodised, resampled, sliced, tapered
 from ...surfaces.prepare.filter import filtered, tip_limited
 from ...surfaces.prepare.level import HIGHEST_DEGREE, despiked, filled, levelled, line_corrected
+from ...surfaces.prepare.regions import Ellipse, Polygon, Rectangle, Region, masked
 from ...surfaces.prepare.tip import ConicalTip, Opening, SphericalTip, Tip, estimated_tip, reconstructed
 from ...surfaces.profile import Profile
 from ...surfaces.profile_conversion import surface_of_profile
@@ -108,6 +109,7 @@ STEPS: Mapping[str, Callable[..., Surface]] = MappingProxyType(
     {
         "level": level,
         "crop": cropped,
+        "mask": masked,
         "resample": resampled,
         "fill": filled,
         "despike": despiked,
@@ -163,14 +165,53 @@ class AnyStep(Settings):
 
 def prepared(surface: Surface, step: Any) -> Surface:
     """``surface`` after one preparation ``step``."""
-    made: Surface = step.makes(surface, **step.given("step"))
+    made: Surface = step.makes(surface, **arguments_of(step))
     return made
 
 
+def arguments_of(step: Any) -> dict[str, Any]:
+    """Arguments of the function of a ``step``: its values, and the regions of a mask for their
+    tables."""
+    return {
+        key: tuple(part.makes(**part.given("kind")) if isinstance(part, Settings) else part for part in value)
+        if isinstance(value, tuple)
+        else value
+        for key, value in step.given("step").items()
+    }
+
+
+REGIONS = MappingProxyType({"rectangle": Rectangle, "ellipse": Ellipse, "polygon": Polygon})
+"""What makes each kind of region of a mask."""
+
+
+class AnyRegion(Settings):
+    """What all regions of a mask have: a rule on which of their keys go together."""
+
+    @model_validator(mode="after")
+    def _keys_go_together(self) -> AnyRegion:
+        given = self.given()
+        if given.get("kind") == "rectangle" and not {"x", "y"} & given.keys():
+            raise InputError(' must give x or y or both, such as x = ["0 um", "5 um"], but gives neither.')
+        if given.get("kind") == "polygon" and not len(given["x"]) == len(given["y"]) >= 3:
+            raise InputError(
+                f" must give at least three corners, each with x and y, but gives {len(given['x'])} x and "
+                f"{len(given['y'])} y."
+            )
+        return self
+
+
+REGION_TABLES = MappingProxyType({kind: table_of(made, AnyRegion, f"kind={kind}") for kind, made in REGIONS.items()})
+"""The table of each kind of region."""
+
 if TYPE_CHECKING:
+    RegionTable: TypeAlias = Any
     Step: TypeAlias = Any
 else:
-    _STEP_TABLES = tuple(table_of(function, AnyStep, f"step={name}") for name, function in STEPS.items())
+    RegionTable = Annotated[Union[tuple(REGION_TABLES.values())], Field(discriminator="kind")]  # noqa: UP007
+    _OBJECTS = {tuple[Region, ...]: tuple[RegionTable, ...]}
+    _STEP_TABLES = tuple(
+        table_of(function, AnyStep, f"step={name}", tables=_OBJECTS) for name, function in STEPS.items()
+    )
     Step = Annotated[Union[_STEP_TABLES], Field(discriminator="step")]  # noqa: UP007  (made from a tuple)
 
 
