@@ -57,7 +57,9 @@ def difference(first: Told, second: Told, names: tuple[str, str]) -> None:
             return
         table.clear()
         with table:
-            text_table(["quantity", names[0], names[1], "difference"], rows_of_differences(first.numbers, second.numbers))
+            text_table(
+                ["quantity", names[0], names[1], "difference"], rows_of_differences(first.numbers, second.numbers)
+            )
 
     first.heard = second.heard = fill
 

@@ -119,12 +119,12 @@ def _colours_of_the_page() -> None:
             item.props(f'aria-checked="{str(key == name).lower()}"')
 
     items = {}
-    with ui.button(icon="contrast").props('flat round dense aria-label="dark or light" aria-haspopup="menu"'):
-        with ui.menu():
-            for name, (text, _) in LOOKS.items():
-                item = ui.menu_item(text.capitalize(), on_click=lambda name=name: choose(name))
-                items[name] = item.props(f'role="menuitemradio" data-look="{name}"')
-                item.props(f'aria-checked="{str(name == _chosen_look()).lower()}"')
+    button = ui.button(icon="contrast").props('flat round dense aria-label="dark or light" aria-haspopup="menu"')
+    with button, ui.menu():
+        for name, (text, _) in LOOKS.items():
+            item = ui.menu_item(text.capitalize(), on_click=lambda name=name: choose(name))
+            items[name] = item.props(f'role="menuitemradio" data-look="{name}"')
+            item.props(f'aria-checked="{str(name == _chosen_look()).lower()}"')
 
 
 def _back(session: Session, *, again: bool = False) -> None:

@@ -134,7 +134,7 @@ class _Explored:
         with ui.expansion("Files").classes("wide").props("data-files"):
             downloads(self.key, self.session, self.run)
             ui.button("Fields as VTK", icon="download", on_click=self.vtk).props("no-caps flat dense")
-        self.told.tell(shown["numbers"] if "numbers" in shown else [])
+        self.told.tell(shown.get("numbers", []))
 
     def head(self, shown: dict[str, Any]) -> None:
         """Verdict in a line each, whole with remedies where it is opened, and the headline."""
