@@ -872,7 +872,7 @@ class Viewer {
     this.zoom = 1; this.centre = [this.size[0] / 2, this.size[1] / 2];
     this.line = [...scene.line]; this.lineShown = true; this.cursor = null; this.along = null; this.marked = null;
     this.position = { steps: scene.steps ? scene.steps.first : 0, depths: 0 };
-    this.kept = new Map(); this.few = new Map(); this.thumbs = []; this.one = options.layout === "one"; this.heading = this.one ? "h2" : "h4";
+    this.kept = new Map(); this.few = new Map(); this.turns = {}; this.thumbs = []; this.one = options.layout === "one"; this.heading = this.one ? "h2" : "h4";
     element.classList.add("av"); element.replaceChildren();
     element.classList.toggle("av-one", this.one);
     this.panels = scene.maps.map((map) => new Panel(this, map));
@@ -923,7 +923,7 @@ class Viewer {
     dark.addEventListener("change", this.restyled);
     this.observer = new ResizeObserver(() => this.drawSoon());
     this.observer.observe(this.element);
-    this.stop = () => { this.turn = null; dark.removeEventListener("change", this.restyled); this.observer.disconnect(); this.element.replaceChildren(); };
+    this.stop = () => { this.turns = {}; dark.removeEventListener("change", this.restyled); this.observer.disconnect(); this.element.replaceChildren(); };
   }
   restyle() {
     const take = (name, otherwise) => colourOf(this.element, name) || otherwise;
@@ -1030,7 +1030,7 @@ class Viewer {
   }
   /* While nothing else happens: the neighbours of a step or depth whole, nearest first, with their colours, and few points of all others, so that the slider finds them. */
   prefetch(kind) {
-    const turn = this.turn = {}, count = this.scene[kind].texts.length, at = this.position[kind];
+    const turn = this.turns[kind] = {}, count = this.scene[kind].texts.length, at = this.position[kind];
     const order = Array.from({ length: count }, (_, k) => k).sort((a, b) => Math.abs(a - at) - Math.abs(b - at)).slice(1);
     const idle = window.requestIdleCallback ? (limit) => new Promise((done) => requestIdleCallback(done, { timeout: limit })) : () => new Promise((done) => setTimeout(done, 30));
     const wanted = this.one ? this.panels : this.visible;
@@ -1039,12 +1039,12 @@ class Viewer {
         const array = panel.map.along === kind ? panel.map.arrays[k] : null, near = Math.abs(k - at) <= 3;
         if (!array || (!near && this.few.has(array))) continue;
         await idle(1500);
-        if (this.turn !== turn) return;
+        if (this.turns[kind] !== turn) return;
         const raster = await this.raster(array, panel.map).catch(() => null);
         if (!raster) return;
         if (!near || panel.box.hidden || !panel.axes) continue;
         await idle(1500);
-        if (this.turn !== turn) return;
+        if (this.turns[kind] !== turn) return;
         panel.colours.picture(raster, panel.fine(raster), rgb(this.look.blank));
       }
     })();

@@ -1,0 +1,231 @@
+"""Every page of the application, and a report, against WCAG 2 A and AA by axe-core, dark and light;
+landmarks, language, keyboard, and the choice of dark or light."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("nicegui", reason="the extra web is not installed")
+
+from asperity.web.layout import STEPS
+
+from .app_server import AppServer
+from .explored import LONG, keys, solved
+
+Open = Callable[..., Any]
+AXE = Path(__file__).with_name("axe") / "axe.min.js"
+LEVELS = ("wcag2a", "wcag2aa", "wcag21a", "wcag21aa")
+
+LEFT_OFF: dict[str, str] = {}
+"""Rules that are not asked for, with the reason; there are none."""
+
+PAGES = ("start", *STEPS)
+SCHEMES = ("light", "dark")
+
+
+@pytest.fixture(scope="module")
+def kept(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    def opened(address: str) -> Any:
+        page = browser.new_page()
+        page.goto(address)
+        return page
+
+    return solved(opened, tmp_path_factory.mktemp("accessible"), runs=2)
+
+
+@pytest.fixture(scope="module")
+def app(kept: Path) -> Iterator[AppServer]:
+    with AppServer(("--threads", "1", "--folder", str(kept))) as running:
+        yield running
+
+
+def opened(app: AppServer, open_page: Open, name: str, query: str = "", **options: Any) -> Any:
+    """The page ``name``, once it is drawn."""
+    page = open_page(app.address, **({"viewport": {"width": 1400, "height": 900}} | options)).page
+    page.wait_for_url("**/s/**")
+    to(page, name, query)
+    return page
+
+
+def to(page: Any, name: str, query: str = "") -> None:
+    """Go from one page of the application to the page ``name``."""
+    base = page.url.partition("?")[0].rpartition("/")[0]
+    page.goto(f"{base.partition('/s/')[0]}/start" if name == "start" else f"{base}/{name}{query}")
+    page.wait_for_selector("h1", state="attached")
+    if name == "explore":
+        page.wait_for_selector("[data-ready]", timeout=LONG)
+    page.wait_for_timeout(1500)
+
+
+def violations(page: Any) -> list[str]:
+    """Rule, place and reason of everything that axe-core finds."""
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    found = page.evaluate(
+        "(rules) => axe.run(document, rules).then((all) => all.violations.flatMap((rule) => rule.nodes.map((node) =>"
+        " `${rule.id}: ${node.html.slice(0, 200)} ${node.failureSummary}`)))",
+        {
+            "runOnly": {"type": "tag", "values": list(LEVELS)},
+            "rules": {name: {"enabled": False} for name in LEFT_OFF},
+        },
+    )
+    return [str(item) for item in found]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("name", PAGES)
+def test_no_page_violates_wcag(name: str, scheme: str, app: AppServer, open_page: Open) -> None:
+    page = opened(app, open_page, name, color_scheme=scheme)
+    assert violations(page) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_nothing_that_opens_violates_wcag(scheme: str, app: AppServer, open_page: Open, kept: Path) -> None:
+    first, second = keys(kept)
+    page = opened(app, open_page, "explore", f"?run={first}&beside={second}", color_scheme=scheme)
+    page.click("[data-subtract]")
+    page.wait_for_selector("[data-difference-map] canvas")
+    assert violations(page) == []
+    to(page, "explore")
+    for summary in page.locator("main summary").all():
+        summary.click()
+    for item in page.locator(".q-expansion-item").all():
+        item.locator(".q-item").first.click()
+    page.click("[data-theories]")
+    page.wait_for_selector(".theories .main-svg", timeout=LONG)
+    page.wait_for_selector(".space .main-svg", timeout=LONG)
+    page.wait_for_timeout(500)
+    assert violations(page) == []
+    page.evaluate("scrollTo(0, 0)")
+    page.click("[aria-label='dark or light']")
+    page.wait_for_selector("[data-look=dark]")
+    page.wait_for_timeout(400)
+    assert violations(page) == []
+    page.keyboard.press("Escape")
+    page.click("text=Copy as")
+    page.click(".q-menu >> text=document")
+    page.wait_for_selector(".q-dialog .code")
+    page.wait_for_timeout(400)
+    assert violations(page) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_no_report_violates_wcag(scheme: str, kept: Path, open_page: Open) -> None:
+    page = open_page(next(kept.glob("runs/*/report.html")), color_scheme=scheme).page
+    page.wait_for_function("document.querySelector('[data-viewer]').viewer !== undefined")
+    page.evaluate("document.querySelector('[data-viewer]').viewer.ready")
+    assert violations(page) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PAGES)
+def test_every_page_has_language_landmarks_and_names(name: str, app: AppServer, open_page: Open) -> None:
+    page = opened(app, open_page, name)
+    assert page.evaluate("document.documentElement.lang").startswith("en")
+    assert page.locator("main, [role=main]").count() == 1
+    assert page.locator("main").get_attribute("aria-label")
+    assert page.locator("h1").count() == 1
+    if name != "start":
+        assert page.locator("header").count() == 1
+        assert page.locator("nav[aria-label]").count() == 1
+        assert page.locator("nav [aria-current=page]").count() == 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PAGES)
+def test_everything_that_is_pressed_is_reached_by_keyboard(name: str, app: AppServer, open_page: Open) -> None:
+    page = opened(app, open_page, name)
+    if name == "explore":
+        page.click("[data-spots]")
+        page.wait_for_selector("tr[data-spot]", timeout=LONG)
+    # what answers to a press: it or something within or around it takes the focus
+    unreached = page.evaluate(
+        """() => [...document.querySelectorAll("body *")].filter((e) => {
+        const style = getComputedStyle(e);
+        if (!["pointer", "crosshair", "move"].includes(style.cursor) || !e.offsetParent) return false;
+        if (e.parentElement && getComputedStyle(e.parentElement).cursor === style.cursor) return false;
+        const focused = (x) => x.tabIndex >= 0 && !x.disabled;
+        for (let x = e; x; x = x.parentElement) if (focused(x)) return false;
+        const field = e.closest("label, .q-field, .q-tabs, .av-stage, .js-plotly-plot");
+        return !(focused(e) || [...(field || e).querySelectorAll("*")].some(focused));
+        }).map((e) => e.outerHTML.slice(0, 160))"""
+    )
+    assert unreached == []
+    page.evaluate("document.activeElement.blur()")
+    reached = set()
+    for _ in range(12):
+        page.keyboard.press("Tab")
+        reached.add(page.evaluate("document.activeElement.outerHTML.slice(0, 300)"))
+    assert len(reached) > 5
+
+
+def contrast(first: str, second: str) -> float:
+    """Ratio of the luminances of two colours "rgb(r, g, b)" (WCAG 2)."""
+
+    def luminance(colour: str) -> float:
+        parts = np.array([float(part) for part in re.findall(r"[\d.]+", colour)[:3]]) / 255.0
+        linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
+        return float(linear @ [0.2126, 0.7152, 0.0722])
+
+    low, high = sorted((luminance(first), luminance(second)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def rgb(text: str) -> str:
+    """A colour "#rrggbb" as "rgb(r, g, b)"."""
+    return f"rgb({', '.join(str(int(text[k : k + 2], 16)) for k in (1, 3, 5))})"
+
+
+@pytest.mark.slow
+def test_dark_or_light_is_kept_and_axes_are_legible_in_both(app: AppServer, open_page: Open) -> None:
+    page = opened(app, open_page, "explore", color_scheme="light")
+    is_dark = "document.body.classList.contains('body--dark')"
+    assert not page.evaluate(is_dark), "as the system at first"
+    page.click("[data-space]")
+    page.click("[data-compared]")
+    page.click("[data-theories]")
+    page.wait_for_selector(".theories .main-svg", timeout=LONG)
+    page.wait_for_selector(".space .main-svg", timeout=LONG)
+    page.wait_for_timeout(800)
+    for scheme in SCHEMES:
+        page.evaluate("scrollTo(0, 0)")
+        page.click("[aria-label='dark or light']")
+        page.click(f"[data-look={scheme}]")
+        page.wait_for_function(f"{is_dark} === {str(scheme == 'dark').lower()}")
+        page.wait_for_timeout(800)
+        behind = page.evaluate("getComputedStyle(document.body).backgroundColor")
+        look = page.evaluate("document.querySelector('[data-scene]').viewer.look")
+        texts = page.eval_on_selector_all(
+            ".js-plotly-plot :is(.xtick text, .ytick text, .xtitle, .ytitle, .legendtext, .colorbar text)",
+            "all => all.map((e) => getComputedStyle(e).fill)",
+        )
+        assert len(texts) > 10
+        axes = page.evaluate(
+            "[...document.querySelectorAll('.js-plotly-plot')].map((p) => p._fullLayout.scene).filter(Boolean)"
+            ".flatMap((s) => [s.xaxis, s.yaxis, s.zaxis]).flatMap((a) => [a.tickfont.color, a.title.font.color])"
+        )
+        assert len(axes) == 6
+        for colour in [*texts, *map(rgb, axes), rgb(look["soft"]), rgb(look["ink"]), rgb(look["accent"])]:
+            assert contrast(colour, behind) >= 4.5, (scheme, colour)
+
+    page.reload()
+    page.wait_for_selector("[data-ready]", timeout=LONG)
+    assert page.evaluate(is_dark)
+    for name in ("surface", "start", "explore"):
+        to(page, name)
+        assert page.evaluate(is_dark), name
+    page.click("[aria-label='dark or light']")
+    assert page.locator("[data-look=dark]").get_attribute("aria-checked") == "true"
+    page.click("[data-look=system]")
+    page.wait_for_function(f"!{is_dark}")
+    page.reload()
+    page.wait_for_selector("[data-ready]", timeout=LONG)
+    assert not page.evaluate(is_dark)
