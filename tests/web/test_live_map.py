@@ -94,7 +94,9 @@ def test_the_last_map_stays_beside_what_is_wrong(page: Any) -> None:
     fill(page, "surface.pitch", "3 um")  # does not fit in the size: said beside the table
     page.wait_for_selector(wrong)
     arrived(page, state="wrong")
-    page.wait_for_function("getComputedStyle(document.querySelector('[data-preview=surface] > .preview')).opacity < 0.9")
+    page.wait_for_function(
+        "getComputedStyle(document.querySelector('[data-preview=surface] > .preview')).opacity < 0.9"
+    )
     fill(page, "surface.pitch", "2.5 um")
     arrived(page)
     assert page.locator(".failure").count() == 0
