@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib import resources
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import MappingProxyType
@@ -19,7 +18,19 @@ from ..core.values import Flag
 from ..io.atomic import atomic_folder, require_new_files
 from ..run.archive import carried, is_archive, unpack
 from ..run.build import build, large_grid, stated_points
-from ..run.document import ProblemDocument, checked, files_of, loads, read_table, relocated, save_document
+from ..run.document import (
+    DEMO,
+    EXAMPLES,
+    PRESETS,
+    ProblemDocument,
+    built_in,
+    checked,
+    files_of,
+    loads,
+    read_table,
+    relocated,
+    save_document,
+)
 from ..run.execute import Outcome, execute
 from .declared import ADVANCED, FILE, Given, Option, offers, part_names, part_options, sorted_out, with_parts
 from .main import NOT_CONVERGED, OK
@@ -37,8 +48,8 @@ Document = Annotated[
     Path | None,
     typer.Option(
         "--from",
-        help="Problem document (TOML or JSON); options replace parts of it. Of the literature: head-disk, "
-        "disk-and-slider, mems.",
+        help="Problem document (TOML or JSON); options replace parts of it. Of the literature: "
+        f"{', '.join(PRESETS)}; examples: {', '.join(EXAMPLES)}.",
         metavar="DOCUMENT",
     ),
 ]
@@ -207,7 +218,7 @@ def dynamics(
 
 def demo(out: Out = None, force: Force = False) -> None:
     """Solve a built-in problem: a rough magnetic disk under a flat slider. Nothing to prepare."""
-    document = loads(resources.files("asperity").joinpath("data", "demo.toml").read_text(encoding="utf-8"))
+    document = loads(built_in(DEMO))
     code = _perform(document, Path(), out, {}, force=force)
     if out is None:
         say("Add --out DIR for the report, the result file and the plots.", "dim")

@@ -32,9 +32,12 @@ from ..parts.part import Part
 from ..parts.registry import parts
 
 __all__ = [
+    "DEMO",
+    "EXAMPLES",
     "PRESETS",
     "TRACTIONS",
     "ProblemDocument",
+    "built_in",
     "checked",
     "checked_parts",
     "document_model",
@@ -42,6 +45,7 @@ __all__ = [
     "json_schema",
     "load_document",
     "loads",
+    "picture",
     "read_table",
     "relocated",
     "renamed",
@@ -105,21 +109,50 @@ PRESETS = ("head-disk", "disk-and-slider", "mems")
 """Documents of this package, each with its source: interfaces of the literature with roughness,
 bodies, film and load."""
 
+EXAMPLES: Mapping[str, str] = MappingProxyType(
+    {
+        "coated-disk": "Which spots carry a sliding head, and does the coating under them yield?",
+        "ball-on-coating": "How deep do the stresses of a ball reach below a hard coating?",
+        "rubber-on-ground": "How do the spots grow, and run together, while the load rises?",
+        "flattened-metal": "How much of a metal face flows, and what stays flat without the load?",
+        "humid-air": "How much water condenses around the spots, and how hard does it pull?",
+        "fretting": "Where do two faces stick, and where do they slip, when they are shifted?",
+        "connector": "Through which spots does the current flow, and how many milliohms are left?",
+        "metal-seal": "Which way does a liquid find through the gap, and how much of it leaks?",
+    }
+)
+"""Further documents of this package, each solved in a second or so, and the question that each of
+them answers."""
+
+DEMO = "coated-disk"
+"""The document of the demonstration."""
+
+
+def built_in(name: str) -> str:
+    """Text of the document of this package that is called ``name``, of ``PRESETS`` or
+    ``EXAMPLES``."""
+    folder = "presets" if name in PRESETS else "examples"
+    return resources.files("asperity").joinpath("data", folder, f"{name}.toml").read_text(encoding="utf-8")
+
+
+def picture(name: str) -> bytes:
+    """Picture (PNG) of the result of the example ``name``, of ``EXAMPLES``."""
+    return resources.files("asperity").joinpath("data", "examples", f"{name}.png").read_bytes()
+
 
 def read_table(path: str | os.PathLike[str], what: str = "problem document") -> dict[str, Any]:
     """Content of the file at ``path`` before any check of keys and values; ``what`` it is called in
     messages.
 
-    A name of ``PRESETS`` stands for that document where there is no such file.
+    A name of ``PRESETS`` or ``EXAMPLES`` stands for that document where there is no such file.
 
     Raises
     ------
     FileFormatError
         If the file is missing, unreadable, or neither TOML nor JSON.
     """
-    if str(path) in PRESETS and not Path(path).exists():
-        preset = resources.files("asperity").joinpath("data", "presets", f"{path}.toml")
-        return _parsed(preset.read_text(encoding="utf-8"), "toml", f"{what} {path}")
+    if str(path) in {*PRESETS, *EXAMPLES} and not Path(path).exists():
+        return _parsed(built_in(str(path)), "toml", f"{what} {path}")
     return _parsed(read_text(Path(path), what), _form(Path(path)), f"{what} {path}")
 
 

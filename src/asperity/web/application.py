@@ -14,6 +14,7 @@ from nicegui import ui
 
 from ..core.errors import AsperityError
 from ..report import page
+from ..run.document import EXAMPLES, picture
 from .kept import is_within
 from .pages import add_pages
 from .security import MIB, quota_text
@@ -48,6 +49,12 @@ def application(place: Place) -> Any:
         if name not in static or kind is None:
             return Response("no such file", 404)
         return Response(static[name], media_type=kind, headers={"cache-control": "max-age=3600"})
+
+    @app.get("/examples/{name}.png")
+    async def example(name: str) -> Response:
+        if name not in EXAMPLES:
+            return Response("no such example", 404, media_type="text/plain")
+        return Response(picture(name), media_type="image/png", headers={"cache-control": "max-age=3600"})
 
     @app.get("/views/{key}/{run}")
     async def scene(key: str, run: str) -> Response:

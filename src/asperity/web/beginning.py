@@ -5,14 +5,13 @@ from __future__ import annotations
 import tempfile
 import tomllib
 from collections.abc import Sequence
-from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 from ..core.errors import InputError
 from ..run.archive import is_archive, unpack
-from ..run.document import files_named, read_table
+from ..run.document import DEMO, built_in, files_named, read_table
 from .draft import relabelled
 from .session import Session
 
@@ -44,8 +43,7 @@ def fill(session: Session, *, files: Sequence[Path] = (), demo: bool = False) ->
         If one is no file.
     """
     if demo:
-        text = resources.files("asperity").joinpath("data", "demo.toml").read_text(encoding="utf-8")
-        session.draft.replace(tomllib.loads(text))
+        session.draft.replace(tomllib.loads(built_in(DEMO)))
     for file in files:
         if not file.is_file():
             raise InputError(

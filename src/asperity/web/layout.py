@@ -76,11 +76,16 @@ def frame(place: Place, key: str, session: Session, step: str) -> Iterator[None]
     ui.timer(1.0, watch)
 
 
+def root_path() -> str:
+    """Path below which all addresses of the application lie, for elements that do not add it."""
+    return str(ui.context.client.request.headers.get(FORWARDED.decode(), ""))
+
+
 def look() -> None:
     """Style and scripts of every page, dark or light as it was chosen."""
     ui.dark_mode(value=LOOKS[_chosen_look()][1])
     ui.colors(primary="#005a9c", positive="#1b6e3c", negative="#a31515", warning="#8a5300", info="#005a9c")
-    root = ui.context.client.request.headers.get(FORWARDED.decode(), "")
+    root = root_path()
     for name in ("viewer.css", "app.css", "problem.css"):
         ui.add_head_html(f'<link rel="stylesheet" href="{root}/static/{name}">')
     for name in ("viewer.js", "app.js", "explore.js"):

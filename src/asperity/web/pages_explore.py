@@ -144,6 +144,7 @@ class _Explored:
                 self.box.clear()
                 with self.box:
                     failure(self.run.message)
+                    ui.link("What to change, and all runs", f"/s/{self.key}/run")
             elif not area.default_slot.children and self.file(SCENE).is_file():
                 with area:
                     self.scene()

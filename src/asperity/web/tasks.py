@@ -66,7 +66,8 @@ def guarded(work: Callable[[Task], dict[str, Any]]) -> Callable[[Task], dict[str
                 warnings.simplefilter("ignore")
                 return work(task)
         except AsperityError as error:
-            return {"error": prefixed(str(error)), "kind": type(error).__name__, "place": error.place}
+            place = {"place": error.place} if error.place else {}
+            return {"error": prefixed(str(error)), "kind": type(error).__name__, **place}
         except MemoryError:
             return {"error": "Not enough memory: crop the surface or resample it to fewer points."}
         except Exception as error:

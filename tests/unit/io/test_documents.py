@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +17,7 @@ from asperity.errors import FileFormatError, OutputError
 from asperity.io.schemas.bodies import body_from_text
 from asperity.run.document import (
     ProblemDocument,
+    built_in,
     checked,
     dumps,
     json_schema,
@@ -392,8 +392,7 @@ def test_file_round_trip(tmp_path: Path, name: str) -> None:
 
 
 def test_demo_document_is_valid() -> None:
-    text = resources.files("asperity").joinpath("data", "demo.toml").read_text(encoding="utf-8")
-    assert loads(text).control.mean_pressure == 4e6
+    assert loads(built_in("coated-disk")).control.mean_pressure == 4e6
 
 
 def test_documents_do_not_change() -> None:
