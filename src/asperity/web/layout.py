@@ -82,9 +82,9 @@ def look() -> None:
     """Style and scripts of every page."""
     ui.colors(primary="#005a9c", positive="#1b6e3c", negative="#a31515", warning="#8a5300", info="#005a9c")
     root = ui.context.client.request.headers.get(FORWARDED.decode(), "")
-    for name in ("viewer.css", "app.css"):
+    for name in ("viewer.css", "app.css", "measure.css"):
         ui.add_head_html(f'<link rel="stylesheet" href="{root}/static/{name}">')
-    for name in ("viewer.js", "app.js"):
+    for name in ("viewer.js", "app.js", "measure.js"):
         ui.add_head_html(f'<script defer src="{root}/static/{name}"></script>')
 
 

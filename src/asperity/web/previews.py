@@ -74,10 +74,9 @@ class Stages:
 def stages(table: Any, folder: Path, first: int, last: int) -> Stages:
     """The surface of the checked ``table`` after the ``first`` and after the ``last`` of its steps,
     counted from 1; relative paths start at ``folder``."""
-    steps = table.prepare
-    before = after = build_surface(table.model_copy(update={"prepare": steps[:first]}), folder)
+    before = after = build_surface(table.model_copy(update={"prepare": table.prepare[:first]}), folder)
     cutoffs: dict[str, float] = {}
-    for step in steps[first:last]:
+    for step in table.prepare[first:last]:
         cutoffs |= _cutoffs(after, step)
         after = prepared(after, step)
     return Stages(before, after, cutoffs)

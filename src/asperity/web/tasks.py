@@ -51,7 +51,7 @@ from ..surfaces.profile_summary import characterise_profile
 from ..surfaces.read import channels
 from ..surfaces.scans import Scans
 from ..surfaces.surface import Surface
-from .previews import kept, stages, thinned
+from .previews import Stages, kept, stages, thinned
 from .views import theory_curves, write_views
 
 Task: TypeAlias = Mapping[str, Any]
@@ -112,10 +112,17 @@ def surface(task: Task) -> dict[str, Any]:
     With ``since``, the number of steps before those that are looked at, also what these do, and
     instead of the surface after them that before, or the heights removed, as ``show`` says.
     """
-    table, since, out = _table(task), task.get("since"), Path(task["out"])
-    count = len(table.prepare)
-    found = stages(table, Path(task["folder"]), count if since is None else min(since, count), count)
-    told = {} if since is None else {"words": found.words(), "cutoffs": dict(found.cutoffs)}
+    since, out = task.get("since"), Path(task["out"])
+    try:
+        table = _table(task)
+        count = len(table.prepare)
+        found = stages(table, Path(task["folder"]), count if since is None else min(since, count), count)
+        told = {} if since is None else {"words": found.words(), "cutoffs": dict(found.cutoffs)}
+    except AsperityError as error:
+        if task.get("show") != "before":
+            raise
+        before = _built({**task, "steps": since})  # it is there, whatever is wrong with what comes after
+        found, told = Stages(before, before), {"words": prefixed(str(error))}
     shown = {"before": found.before, "removed": found.removed}.get(task.get("show", ""), found.after)
     if shown is None:
         return {"nothing": found.words(), **told}
