@@ -86,9 +86,9 @@ def look() -> None:
     ui.dark_mode(value=LOOKS[_chosen_look()][1])
     ui.colors(primary="#005a9c", positive="#1b6e3c", negative="#a31515", warning="#8a5300", info="#005a9c")
     root = root_path()
-    for name in ("viewer.css", "app.css", "problem.css"):
+    for name in ("viewer.css", "app.css", "problem.css", "measure.css"):
         ui.add_head_html(f'<link rel="stylesheet" href="{root}/static/{name}">')
-    for name in ("viewer.js", "app.js", "explore.js"):
+    for name in ("viewer.js", "app.js", "explore.js", "measure.js"):
         ui.add_head_html(f'<script defer src="{root}/static/{name}"></script>')
 
 

@@ -80,6 +80,35 @@ def height_line(values: Any, spacing: tuple[float, float], title: str) -> dict[s
     }
 
 
+def profile_curves(curves: list[tuple[str, Any, Any]], extent: float) -> dict[str, Any]:
+    """Curves of heights in m over the distance in m along a line of that ``extent``, each with its
+    name; the first stands out."""
+    x_unit, x_scale = scaled(extent)
+    z_unit, z_scale = scaled(max(float(np.nanmax(np.abs(z), initial=0.0)) for _, _, z in curves))
+    return {
+        "data": [
+            {
+                "type": "scattergl",
+                "mode": "lines",
+                "name": name,
+                "x": packed(np.asarray(x) / x_scale),
+                "y": packed(np.asarray(z) / z_scale),
+                "line": {"color": COLOURS[0] if number == 0 else GREY, "width": 1.6 if number == 0 else 1},
+                "hovertemplate": f"%{{x:.4g}} {x_unit}: %{{y:.4g}} {z_unit}<extra>{name}</extra>",
+            }
+            for number, (name, x, z) in reversed(list(enumerate(curves)))
+        ],
+        "layout": layout(
+            xaxis=axis(f"distance / {x_unit}", range=[0.0, extent / x_scale]),
+            yaxis=axis(f"height / {z_unit}"),
+            margin={"l": 60, "r": 12, "t": 30 if len(curves) == 1 else 50, "b": 44},
+            showlegend=len(curves) > 1,
+            legend={"orientation": "h", "y": 1.0, "yref": "container", "yanchor": "top", "x": 0.0},
+        ),
+        "config": CONFIG,
+    }
+
+
 def height_map(values: Any, spacing: tuple[float, float], title: str) -> dict[str, Any]:
     """Map of heights (ny, nx) in m on a grid of that spacing."""
     ny, nx = values.shape

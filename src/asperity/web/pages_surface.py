@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +19,8 @@ from .beginning import measured, open_document, scanned
 from .draft import Keys
 from .forms import asked_of
 from .layout import drop, failure, rows
+from .map_tools import Heard, Masks, Picture, Profiles, Stage, Toolbar, steps_of
+from .measuring import outlines
 from .pages_files import FileList, files_with_heights
 from .places import Places
 from .session import Session
@@ -31,31 +32,51 @@ SCANS: Keys = (SURFACE, "spectrum", "scans")
 
 class Preview:
     """Map of the surface as it stands, computed by the helper of the session a moment after the
-    last change.
+    last change, with the tools that measure and mask on it.
 
-    The last map stays, dimmed, while there is no new one; why there is none is said at one of the
-    ``places`` of the form, or above the map. ``answer`` is what is known of the map.
+    With a ``stage`` it shows the surface before or after the step that is looked at, or what that
+    removes; ``what`` of these it shows first. The last map stays, dimmed, while there is no new
+    one; why there is none is said at one of the ``places`` of the form, or above the map.
     """
 
     def __init__(
         self,
         session: Session,
         title: str,
-        steps: Callable[[], int | None],
         name: str,
         *,
         of: str = SURFACE,
+        stage: Stage | None = None,
+        what: str = "after",
+        masks: Masks | None = None,
         places: Places | None = None,
     ) -> None:
-        self.session, self.title, self.steps, self.of, self.places = session, title, steps, of, places
+        self.session, self.title, self.of, self.stage, self.what = session, title, of, stage, what
+        self.places = places
+        self._masks = masks
         self.view: tuple[float, float, float, float] | None = None
-        self.answer: dict[str, Any] = {}
+        self.picture = Picture(f"map-{name}", session.scratch / f"{name}.npy", title)
+        self.profiles: Profiles | None = None
         self._file = session.scratch / f"{name}.bin"
         self._wanted = 0
+        self._plot: Any = None
+        self._kind = ""
         with ui.element("section").classes("preview previewed").props(f'data-preview="{name}"') as self.whole:
             self.state = ui.element("div").classes("preview-state").props('role="status"')
             self.box = ui.element("section").classes("preview")
         self._client = ui.context.client
+
+    @property
+    def answer(self) -> dict[str, Any]:
+        """What was computed last."""
+        return self.picture.answer
+
+    @property
+    def shown_steps(self) -> int:
+        """Steps of preparation that the surface that is shown has gone through."""
+        if self.stage is None:
+            return len(steps_of(self.session.draft))
+        return self.stage.since if self.what == "before" else self.stage.upto
 
     def known(self) -> dict[str, Any]:
         """What is known of the surface as it stands now; nothing while it is computed."""
@@ -97,14 +118,16 @@ class Preview:
         """Compute and draw it."""
         table = self.session.draft.get(self.of)
         if not isinstance(table, dict) or not table.get("kind"):
-            self.answer = {}
+            self.picture.answer, self._kind = {}, ""
             self._now("none")
             with self.box.clear() or self.box:
                 ui.label("Choose a file or a generator: the surface is then shown here.").classes("hint")
             return
         number = self._wanted
         self._now("computing")
-        task = {"table": table, "steps": self.steps(), "folder": str(self.session.folder), "out": str(self._file)}
+        task: dict[str, Any] = {"table": table, "folder": str(self.session.folder), "out": str(self._file)}
+        if self.stage is not None:
+            task |= {"steps": self.stage.upto, "since": self.stage.since, "show": self.what}
         answer = await self.session.helper.call("surface", **task)
         if number != self._wanted or self._client.is_deleted:
             return
@@ -113,33 +136,110 @@ class Preview:
             return
         if self.places is not None:
             self.places.clear()
-        self.answer = answer
+        self.picture.answer = answer
         self._now("shown")
         self.draw()
 
     def draw(self) -> None:
-        """Draw what was computed."""
-        self.box.clear()
-        with self.box:
-            nx, ny = self.answer["shape"]
-            values = np.frombuffer(self._file.read_bytes(), "<f4").reshape(ny, nx)
-            drawn = maps.height_map if ny > 1 else maps.height_line
-            figure = drawn(values, tuple(self.answer["spacing"]), self.title)
-            ui.plotly(figure).classes("map").props('role="figure" aria-label="map of heights"').on(
-                "plotly_relayout", self._moved, list(AXES)
+        """Draw what was computed; a picture that is there already shows it in place."""
+        title = self.title if self.stage is None else self.stage.title(self.what)
+        self.picture.name = title
+        kind = "" if not self.picture.there else "curve" if self.picture.is_line else "map"
+        if kind != self._kind or not kind:
+            self.box.clear()
+            with self.box:
+                self._frame(kind, title)
+            self._kind = kind
+        if "nothing" in self.answer:
+            with self._words.clear() or self._words:
+                ui.label(self.answer["nothing"])
+        else:
+            self._plot.update_figure(self._figure(title))
+            self._tell()
+            with self._words.clear() or self._words:
+                self._in_words()
+        if self.profiles is not None:
+            self.profiles.draw()
+
+    def _frame(self, kind: str, title: str) -> None:
+        """What stays while the surface changes: the tools, the picture, and room for words."""
+        if self.stage is not None:
+            shown = {"before": "Before", "after": "After", "removed": "What it removes"}
+            ui.toggle(shown, value=self.what, on_change=lambda e: self._turn(e.value)).props(
+                f'no-caps dense data-toggle="{self.picture.key}" aria-label="what the map shows"'
             )
-            full = self.answer["full"]
-            text = (
-                f"{full[0]} × {full[1]} points, rms height {show(self.answer['Sq'], 'm', 4)}, peak to "
-                f"valley {show(self.answer['Sz'], 'm', 4)}"
-            )
-            ui.label(text).classes("numbers")
-            if self.answer["step"] > 1:
-                ui.label(f"Shown with every {self.answer['step']}th point along both sides.").classes("hint")
-            with ui.expansion("What this surface is").classes("wide"):
-                rows(self.answer["rows"])
-                for step in self.answer["history"]:
-                    ui.label(step).classes("hint")
+        if kind:
+            self._tools = Toolbar(self.picture, self._use, masking=self._masks is not None)
+            with self.picture.frame(kind):
+                self._plot = ui.plotly(self._figure(title)).classes("map")
+                self._plot.props('role="figure" aria-label="map of heights"').on(
+                    "plotly_relayout", self._moved, list(AXES)
+                )
+        elif self.stage is not None:
+            ui.label(title).classes("table-title")
+        self._words = ui.element("div").classes("preview")
+
+    def _figure(self, title: str) -> dict[str, Any]:
+        nx, ny = self.answer["shape"]
+        values = np.frombuffer(self._file.read_bytes(), "<f4").reshape(ny, nx)
+        drawn = maps.height_map if ny > 1 else maps.height_line
+        figure = drawn(values, tuple(self.answer["spacing"]), title)
+        figure["layout"]["uirevision"] = str(self.answer["size"])  # stays enlarged while the heights change
+        return figure
+
+    def _tell(self) -> None:
+        """Let the drawing above the picture know what is there."""
+        size = self.picture.size
+        unit, scale = maps.scaled(size[0] if self.picture.is_line else max(size))
+        bars = [
+            {"length": value, "text": f"{name} cut-off {show(value, 'm', 3)}"}
+            for name, value in self.answer.get("cutoffs", {}).items()
+        ]
+        self.picture.push(
+            scale=scale,
+            unit=unit,
+            size=[size[0], None] if self.picture.is_line else list(size),
+            pixel=list(self.answer["pixel"]),
+            outlines=outlines(steps_of(self.session.draft), self.shown_steps, size) if self._masks else [],
+            bars=[] if self.picture.is_line else bars,
+            tool=self._tools.tool,
+        )
+
+    def _in_words(self) -> None:
+        full = self.answer["full"]
+        text = (
+            f"{full[0]} × {full[1]} points, rms height {show(self.answer['Sq'], 'm', 4)}, peak to "
+            f"valley {show(self.answer['Sz'], 'm', 4)}"
+        )
+        if self.answer["missing"]:
+            text += f", {self.answer['missing']} points missing"
+        ui.label(text).classes("numbers")
+        if "words" in self.answer:
+            ui.label(self.answer["words"]).classes("numbers").props("data-removed")
+        if self.answer["step"] > 1:
+            ui.label(f"Shown with every {self.answer['step']}th point along both sides.").classes("hint")
+        with ui.expansion("What this surface is").classes("wide"):
+            rows(self.answer["rows"])
+            for step in self.answer["history"]:
+                ui.label(step).classes("hint")
+
+    def _turn(self, what: str) -> None:
+        """Show the surface ``before`` or ``after`` the step, or what it ``removed``."""
+        self.what = what
+        self.later()
+
+    def _use(self, tool: str) -> None:
+        """What a tool that was chosen needs; the first one for profiles brings one."""
+        if tool == "line" and self.profiles is not None:
+            self.profiles.use(True)
+
+    def told(self, told: dict[str, Any]) -> None:
+        """What a person did on the picture."""
+        what = told.get("what")
+        if what in ("line", "cursors") and self.profiles is not None:
+            self.profiles.told(told)
+        elif self._masks is not None and self.picture.there:
+            self._masks.told(told, self.picture, self.shown_steps)
 
     def _moved(self, event: events.GenericEventArguments) -> None:
         found = [event.args.get(name) for name in AXES]
@@ -232,7 +332,12 @@ def surface_page(key: str, session: Session) -> None:
             shown["files"] = FileList(key, context, lambda: below)
             source()
             _counter_surface(session, fills)
-        shown["map"] = Preview(session, "Surface as prepared", lambda: None, "surface", places=context.places)
+        with ui.element("section"):
+            heard = Heard()
+            preview = Preview(session, "Surface as prepared", "surface", masks=Masks(context), places=context.places)
+            shown["map"] = preview
+            preview.profiles = Profiles(heard, "surface", [preview.picture])
+            heard.of(preview.picture.key, preview.told)
     below = ui.element("section").classes("whole")
     ui.timer(0.01, shown["map"].now, once=True)
 
@@ -243,7 +348,11 @@ def _counter_surface(session: Session, fills: Starting) -> None:
     item = next(entry for entry in asked_of(document_model()) if entry.name == COUNTER)
     with ui.expansion("Counter surface (rough, too)", value=session.draft.get(COUNTER) is not None).classes("wide"):
         kinds(context, item, (COUNTER,))
-        shown = Preview(session, "Counter surface", lambda: None, COUNTER, of=COUNTER, places=context.places)
+        with ui.element("section"):
+            heard = Heard()
+            shown = Preview(session, "Counter surface", COUNTER, of=COUNTER, places=context.places)
+            shown.profiles = Profiles(heard, COUNTER, [shown.picture])
+            heard.of(shown.picture.key, shown.told)
     ui.timer(0.01, shown.now, once=True)
 
 
@@ -294,7 +403,7 @@ def _file_form(context: Context, leave: frozenset[str]) -> None:
 
 
 def prepare_page(key: str, session: Session) -> None:
-    """Steps of preparation beside their effect."""
+    """Steps of preparation beside their effect: pressing on one shows what it does."""
     shown: dict[str, Preview] = {}
 
     def changed(keys: Keys = ()) -> None:
@@ -306,16 +415,16 @@ def prepare_page(key: str, session: Session) -> None:
     )
     context = Context(session, changed, fills)
     item = next(item for item in asked_of(FileSurface) if item.name == "prepare")
+    stage = Stage(lambda: steps_of(session.draft))
 
     def crop() -> None:
-        last, first = shown["after"].view, shown["before"].view
-        view = last or first
-        if view is None:
+        drawn = [preview for preview in shown.values() if preview.view is not None]
+        if not drawn:
             ui.notify("Draw a rectangle on one of the maps first.")
             return
-        x0, x1, y0, y1 = (f"{value * 1e6:.5g} um" for value in view)
-        present = session.draft.get(SURFACE, "prepare") or []
-        at = len(present) if last is not None else 0  # a rectangle belongs to the surface that is shown
+        assert drawn[0].view is not None
+        x0, x1, y0, y1 = (f"{value * 1e6:.5g} um" for value in drawn[0].view)
+        present, at = steps_of(session.draft), drawn[0].shown_steps  # it belongs to the surface that is shown
         step = {"step": "crop", "x": [x0, x1], "y": [y0, y1]}
         context.set((SURFACE, "prepare"), [*present[:at], step, *present[at:]])
         ui.navigate.reload()
@@ -324,16 +433,57 @@ def prepare_page(key: str, session: Session) -> None:
         ui.label("Choose a surface first.")
         ui.link("Surface", f"/s/{key}/surface")
         return
+
+    def look(number: int | None) -> None:
+        stage.chosen = None if number == stage.step else number
+        mark()
+        changed()
+
+    def mark() -> None:
+        for number, button in heads.items():
+            button.props(f"aria-pressed={'true' if number == stage.step else 'false'}")
+        whole.set_visibility(stage.step is not None)
+
+    def head(number: int, text: str) -> None:
+        button = ui.button(text, icon="visibility", color=None, on_click=lambda: look(number)).classes("step-head")
+        button.props(f"flat dense no-caps aria-pressed={'true' if number == stage.step else 'false'}")
+        heads[number] = button.tooltip("show what this step does")
+
+    heads: dict[int, Any] = {}
+
+    @ui.refreshable
+    def steps() -> None:
+        heads.clear()
+        listed(context, item, (SURFACE, "prepare"), titled=False, head=head, changed=mark)
+
+    def again() -> None:
+        steps.refresh()
+        mark()
+
+    masks = Masks(context, stage, again)
     with ui.element("div").classes("two"):
         with ui.element("section"):
-            ui.label("The steps below are the history that the document keeps; every change can be undone.").classes(
-                "hint"
-            )
+            ui.label(
+                "The steps below are the history that the document keeps; every change can be undone. Press on the "
+                "name of one to see what it does."
+            ).classes("hint")
             ui.button("Crop to the rectangle drawn", icon="crop", on_click=crop).props("no-caps outline")
-            listed(context, item, (SURFACE, "prepare"), titled=False)
+            whole = ui.button("Look at all steps together", icon="layers", on_click=lambda: look(None))
+            whole.props("no-caps flat dense").set_visibility(False)
+            steps()
         with ui.element("section"):
-            shown["after"] = Preview(session, "After all steps", lambda: None, "after", places=context.places)
-            shown["before"] = Preview(session, "Before any step", lambda: 0, "before")
+            heard = Heard()
+            for name, what in (("after", "after"), ("before", "before")):
+                places = context.places if what == "after" else None
+                preview = Preview(session, "", name, stage=stage, what=what, masks=masks, places=places)
+                shown[name] = preview
+                heard.of(preview.picture.key, preview.told)
+                if name == "after":
+                    place = ui.element("div")
+            with place:
+                profiles = Profiles(heard, "prepare", [preview.picture for preview in shown.values()])
+            for preview in shown.values():
+                preview.profiles = profiles
 
     async def both() -> None:
         await shown["after"].now()

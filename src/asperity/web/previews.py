@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ..core.errors import AsperityError
 from ..core.units import show
 from ..io.schemas.surfaces import prepared
 from ..run.build import build_surface
@@ -74,13 +75,29 @@ class Stages:
 def stages(table: Any, folder: Path, first: int, last: int) -> Stages:
     """The surface of the checked ``table`` after the ``first`` and after the ``last`` of its steps,
     counted from 1; relative paths start at ``folder``."""
-    steps = table.prepare
-    before = after = build_surface(table.model_copy(update={"prepare": steps[:first]}), folder)
+    before = after = built(table, folder, first)
     cutoffs: dict[str, float] = {}
-    for step in steps[first:last]:
-        cutoffs |= _cutoffs(after, step)
-        after = prepared(after, step)
+    for number in range(first, last):
+        cutoffs |= _cutoffs(after, table.prepare[number])
+        after = _prepared(after, table, number)
     return Stages(before, after, cutoffs)
+
+
+def built(table: Any, folder: Path, steps: int | None = None) -> Surface:
+    """The surface of the checked ``table`` after so many ``steps`` of its preparation, or all; an
+    error has the place of the step that failed."""
+    found = build_surface(table.model_copy(update={"prepare": ()}), folder)
+    for number in range(len(table.prepare) if steps is None else steps):
+        found = _prepared(found, table, number)
+    return found
+
+
+def _prepared(surface: Surface, table: Any, number: int) -> Surface:
+    try:
+        return prepared(surface, table.prepare[number])
+    except AsperityError as error:
+        error.place = f"prepare.{number}"
+        raise
 
 
 def _cutoffs(surface: Surface, step: Any) -> dict[str, float]:

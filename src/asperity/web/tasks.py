@@ -23,7 +23,7 @@ from ..core.words import speaking
 from ..io.atomic import atomic_folder
 from ..io.export import export_vtk
 from ..io.results import document_in
-from ..io.schemas.surfaces import SurfaceTable, prepared
+from ..io.schemas.surfaces import SurfaceTable
 from ..io.words import surface_rows
 from ..physics.stress.part import Stress, StressSettings, stress_request
 from ..plots.picture import Figure, colour_table, encoded
@@ -35,7 +35,7 @@ from ..report.profile import profile_headline, profile_rows, write_profile_repor
 from ..report.roughness import headline_values, quantity_rows, write_roughness_report
 from ..report.scans import ScansInWords, write_page_of_scans
 from ..run.archive import carried
-from ..run.build import build, build_surface
+from ..run.build import build
 from ..run.document import load_document, loads
 from ..run.execute import analysed, execute
 from ..run.refusals import refusals
@@ -49,7 +49,7 @@ from ..surfaces.read import channels
 from ..surfaces.scans import Scans
 from ..surfaces.surface import Surface
 from .draft import Keys, place_in
-from .previews import kept, stages, thinned
+from .previews import Stages, built, kept, stages, thinned
 from .progress import Reported, Watch
 from .views import Views, theory_curves
 
@@ -112,10 +112,17 @@ def surface(task: Task) -> dict[str, Any]:
     With ``since``, the number of steps before those that are looked at, also what these do, and
     instead of the surface after them that before, or the heights removed, as ``show`` says.
     """
-    table, since, out = _table(task), task.get("since"), Path(task["out"])
-    count = len(table.prepare)
-    found = stages(table, Path(task["folder"]), count if since is None else min(since, count), count)
-    told = {} if since is None else {"words": found.words(), "cutoffs": dict(found.cutoffs)}
+    since, out = task.get("since"), Path(task["out"])
+    try:
+        table = _table(task)
+        count = len(table.prepare)
+        found = stages(table, Path(task["folder"]), count if since is None else min(since, count), count)
+        told = {} if since is None else {"words": found.words(), "cutoffs": dict(found.cutoffs)}
+    except AsperityError as error:
+        if task.get("show") != "before":
+            raise
+        before = _built({**task, "steps": since})  # it is there, whatever is wrong with what comes after
+        found, told = Stages(before, before), {"words": prefixed(str(error))}
     shown = {"before": found.before, "removed": found.removed}.get(task.get("show", ""), found.after)
     if shown is None:
         return {"nothing": found.words(), **told}
@@ -140,17 +147,8 @@ def surface(task: Task) -> dict[str, Any]:
 
 
 def _built(task: Task) -> Any:
-    """The surface of ``table``, prepared by the first ``steps`` of its steps, or all; an error has
-    the place of the step that failed."""
-    table, folder = _table(task), Path(task["folder"])
-    found = build_surface(table.model_copy(update={"prepare": ()}), folder)
-    for number, step in enumerate(table.prepare):
-        try:
-            found = prepared(found, step)
-        except AsperityError as error:
-            error.place = f"prepare.{number}"
-            raise
-    return found
+    """The surface of ``table``, prepared by the first ``steps`` of its steps, or all."""
+    return built(_table(task), Path(task["folder"]))
 
 
 def _table(task: Task) -> Any:

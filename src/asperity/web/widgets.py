@@ -236,9 +236,15 @@ def kinds(
 
 
 def listed(
-    context: Context, item: Asked, keys: Keys, *, titled: bool = True, changed: Callable[[], None] | None = None
+    context: Context,
+    item: Asked,
+    keys: Keys,
+    *,
+    titled: bool = True,
+    changed: Callable[[], None] | None = None,
+    head: Callable[[int, str], None] | None = None,
 ) -> None:
-    """A list of tables: added, moved and removed."""
+    """A list of tables: added, moved and removed; ``head`` draws the name of one."""
     assert item.tables is not None
     tables, tag = item.tables, item.tag
 
@@ -271,11 +277,12 @@ def listed(
             word = str(value.get(tag, next(iter(tables)))) if isinstance(value, dict) else next(iter(tables))
             with ui.card().classes("table item").props("flat bordered"):
                 with ui.row().classes("item-head"):
-                    ui.label(f"{number + 1}. {word.replace('_', ' ') or item.label}").classes("table-title")
+                    text = f"{number + 1}. {word.replace('_', ' ') or item.label}"
+                    head(number, text) if head is not None else ui.label(text).classes("table-title")
                     ui.space()
-                    for icon, by, text in (("arrow_upward", -1, "earlier"), ("arrow_downward", 1, "later")):
+                    for icon, by, way in (("arrow_upward", -1, "earlier"), ("arrow_downward", 1, "later")):
                         ui.button(icon=icon, on_click=lambda n=number, b=by: moved(n, b)).props(
-                            f'flat dense round size=sm aria-label="move {text}"'
+                            f'flat dense round size=sm aria-label="move {way}"'
                         )
                     ui.button(
                         icon="close", on_click=lambda n=number: put([v for i, v in enumerate(items()) if i != n])

@@ -23,10 +23,10 @@ from ..surface import Surface, lines_too
 
 @dataclass(frozen=True)
 class Rectangle(Declared):
-    """Points between ``x`` = (x0, x1) and ``y`` = (y0, y1) in m from the corner; an omitted range
-    is the full side.
+    """Points of a rectangle, which reaches over the full side where ``x`` or ``y`` is left out.
 
-    Raises InputError if a range is reversed, or both are omitted.
+    Both are pairs of lengths in m from the corner of the map. Raises InputError if a range is
+    reversed, or both are left out.
     """
 
     x: Annotated[LengthRange | None, "ends of a rectangle along x, from the corner"] = None
@@ -49,10 +49,11 @@ class Rectangle(Declared):
 
 @dataclass(frozen=True)
 class Ellipse(Declared):
-    """Points inside an ellipse about ``centre`` = (x, y) with the semi-axes ``radii`` in m, the
-    first of which stands at ``angle`` in rad from +x towards +y.
+    """Points of an ellipse about its ``centre``, whose first semi-axis stands at ``angle`` from +x
+    towards +y.
 
-    Raises InputError if a radius is not positive.
+    Centre and ``radii`` are pairs of lengths in m, the former from the corner of the map, the angle
+    is in rad. Raises InputError if a radius is not positive.
     """
 
     centre: Annotated[tuple[SignedLength, SignedLength], "middle of an ellipse along x and y, from the corner"]
@@ -70,10 +71,11 @@ class Ellipse(Declared):
 
 @dataclass(frozen=True)
 class Polygon(Declared):
-    """Points inside a polygon with the corners ``x``, ``y`` (n,) in m; where its sides cross one
-    another, those enclosed an odd number of times.
+    """Points of a polygon; where its sides cross one another, those enclosed an odd number of
+    times.
 
-    Raises InputError if there are fewer than three corners, or not as many x as y.
+    Its corners are ``x`` and ``y`` (n,) in m from the corner of the map. Raises InputError if there
+    are fewer than three, or not as many x as y.
     """
 
     x: Annotated[tuple[SignedLength, ...], "corners of a polygon along x, from the corner of the map"]
