@@ -14,7 +14,6 @@ import pytest
 pytest.importorskip("nicegui", reason="the extra web is not installed")
 
 from asperity.core.arrays import RealArray
-from asperity.report.scene import decoded
 
 from .app_server import AppServer
 from .explored import LONG, RUNS, keys, solved
@@ -64,8 +63,15 @@ def of(page: Any, code: str, number: int = 0) -> Any:
 
 
 def values_of(page: Any, name: str, number: int, step: int = 0) -> RealArray:
-    """Map ``name`` of run ``number`` as it was stored."""
-    return decoded(of(page, f"v.scene.maps.find((m) => m.name === '{name}').arrays[{step}]", number))
+    """Map ``name`` of run ``number`` as it was stored (nx, ny)."""
+    code = (
+        f"await (async () => {{ const map = v.scene.maps.find((m) => m.name === '{name}'), array = map.arrays[{step}];"
+        " const r = await v.raster(array, map); return { shape: [r.nx, r.ny], low: r.low, step: r.step,"
+        " masked: r.masked, numbers: [...r.levels[0].q] }; })()"
+    )
+    found = of(page, code, number)
+    numbers = np.array(found["numbers"]).reshape(found["shape"][::-1]).T
+    return np.where(numbers == found["masked"], np.nan, found["low"] + found["step"] * numbers)
 
 
 @pytest.mark.slow

@@ -13,7 +13,7 @@ import pytest
 pytest.importorskip("nicegui", reason="the extra web is not installed")
 
 from asperity.core.settings import Settings
-from asperity.io.schemas.surfaces import HEIGHTS_TABLES, SPECTRUM_TABLES, SURFACE_TABLES, AnyStep
+from asperity.io.schemas.surfaces import HEIGHTS_TABLES, REGION_TABLES, SPECTRUM_TABLES, SURFACE_TABLES, AnyStep
 from asperity.run.build import build_surface
 from asperity.run.document import document_model
 from asperity.web.forms import Asked, asked_of
@@ -107,9 +107,21 @@ def test_a_step_begins_with_a_surface(step: str, extent: Extent, at: Any) -> Non
     before = build(table)
     model = (PREPARE.tables or {})[step]
     assert issubclass(model, AnyStep)
-    after = build(table | {"prepare": [{"step": step, **starting(model, extent)}]}, missing=step == "despike")
+    after = build(table | {"prepare": [{"step": step, **starting(model, extent)}]}, missing=step in ("despike", "mask"))
     if step in ("crop", "resample", "filter", "slice", "taper"):
         assert before.shape != after.shape or np.abs(before - after).max() > 0.0
+
+
+@pytest.mark.parametrize("extent", EXTENTS)
+@pytest.mark.parametrize("kind", REGION_TABLES)
+def test_a_region_of_a_mask_begins_with_points(kind: str, extent: Extent, at: Any) -> None:
+    build, _ = at
+    grid = {"points": list(extent.points), "size": " x ".join(f"{side * 1e6:.10g} um" for side in extent.sides)}
+    table = begun(SURFACE.tables, "kind", "rough", grid, extent)  # type: ignore[arg-type]
+    region = {"kind": kind, **starting(REGION_TABLES[kind], extent)}
+    found = build(table | {"prepare": [{"step": "mask", "regions": [region]}]}, missing=True)
+    share = np.count_nonzero(np.isnan(found)) / found.size
+    assert 0.0 < share < 0.2
 
 
 def test_every_generator_and_step_has_what_it_must(at: Any) -> None:
@@ -119,6 +131,7 @@ def test_every_generator_and_step_has_what_it_must(at: Any) -> None:
         **SPECTRUM_TABLES,
         **HEIGHTS_TABLES,
         **(PREPARE.tables or {}),
+        **REGION_TABLES,
     }
     for word, model in tables.items():
         given = starting(model, Extent(files=(a_map,)))

@@ -16,7 +16,17 @@ from typing import Any, TypeAlias
 from ..core.errors import InputError
 from ..core.settings import Settings, declared
 from ..core.units import show
-from ..io.schemas.surfaces import AMPLITUDES, HEIGHTS, SPECTRA, STEPS, SURFACE_TABLES, SURFACES, FileReading, ScanFile
+from ..io.schemas.surfaces import (
+    AMPLITUDES,
+    HEIGHTS,
+    REGIONS,
+    SPECTRA,
+    STEPS,
+    SURFACE_TABLES,
+    SURFACES,
+    FileReading,
+    ScanFile,
+)
 from .beginning import GRID, measured
 from .draft import Keys
 from .session import Session
@@ -92,12 +102,28 @@ def pitches(share: float) -> Callable[[Extent], list[str]]:
 def middle_half(axis: int) -> Callable[[Extent], list[str] | None]:
     """The middle half of a side; nothing of the width of a line scan."""
 
-    def interval(extent: Extent) -> list[str] | None:
+    return interval(axis, 0.25, 0.75)
+
+
+def interval(axis: int, *shares: float) -> Callable[[Extent], list[str] | None]:
+    """Places along one ``axis`` at these ``shares`` of its side; none across a line scan."""
+
+    def places(extent: Extent) -> list[str] | None:
         if extent.points[axis] == 1:
             return None
-        return [show(share * extent.sides[axis], "m", 10) for share in (0.25, 0.75)]
+        return [show(share * extent.sides[axis], "m", 10) for share in shares]
 
-    return interval
+    return places
+
+
+def corners(extent: Extent) -> list[str]:
+    """Those of a triangle in the middle, along y."""
+    return [show(share * extent.sides[1], "m", 10) for share in (0.45, 0.45, 0.55)]
+
+
+def middle(extent: Extent) -> list[str]:
+    """The middle of the map."""
+    return [show(0.5 * side, "m", 10) for side in extent.sides]
 
 
 def half_of_points(extent: Extent) -> str:
@@ -208,11 +234,28 @@ OF_STEPS: Mapping[str, Mapping[str, Value]] = MappingProxyType(
         "tip": {"radius": length(0.05)},
         "tip_limit": {"radius": length(0.05)},
         "slice": {"y": "middle"},
+        "mask": {"regions": lambda extent: [{"kind": "rectangle", **_filled(OF_REGIONS["rectangle"], extent)}]},
     }
 )
 """Of each step of preparation that needs any."""
 
-BEGINNINGS = ((SURFACES, OF_SURFACES), (SPECTRA, OF_SPECTRA), (HEIGHTS, OF_HEIGHTS), (STEPS, OF_STEPS))
+OF_REGIONS: Mapping[str, Mapping[str, Value]] = MappingProxyType(
+    {
+        "rectangle": {"x": interval(0, 0.45, 0.55), "y": interval(1, 0.45, 0.55)},
+        "ellipse": {"centre": middle, "radii": lambda extent: [show(0.05 * extent.side, "m", 10)] * 2},
+        "polygon": {"x": interval(0, 0.45, 0.55, 0.5), "y": corners},
+    }
+)
+"""Of each region of a mask."""
+
+
+BEGINNINGS = (
+    (SURFACES, OF_SURFACES),
+    (SPECTRA, OF_SPECTRA),
+    (HEIGHTS, OF_HEIGHTS),
+    (STEPS, OF_STEPS),
+    (REGIONS, OF_REGIONS),
+)
 
 
 def starting(model: type[Settings], extent: Extent) -> dict[str, Any]:
