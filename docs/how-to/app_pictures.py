@@ -13,6 +13,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from PIL import Image
+
 FOLDER = Path(__file__).parent
 SWITCHES = ("--no-sandbox", "--disable-background-networking", "--disable-component-update", "--disable-sync")
 WAIT = 120_000
@@ -23,6 +25,13 @@ def take(page: Any, address: str) -> None:
     page.goto(address)
     page.wait_for_url("**/s/**")
     base = page.url.rsplit("/", 1)[0]
+    page.goto(f"{base.rpartition('/s/')[0]}/start")
+    page.wait_for_function("[...document.querySelectorAll('.example img')].some((img) => img.naturalWidth)")
+    page.wait_for_timeout(1000)
+    page.screenshot(path=FOLDER / "app-start.png")
+    with Image.open(FOLDER / "app-start.png") as picture:  # of many pictures, which fewer colours keep small
+        picture.convert("RGB").quantize(96, dither=Image.Dither.NONE).save(FOLDER / "app-start.png", optimize=True)
+    page.goto(f"{base}/surface")
     page.wait_for_selector(".map .main-svg", timeout=WAIT)
     page.wait_for_timeout(1500)
     page.screenshot(path=FOLDER / "app-surface.png")

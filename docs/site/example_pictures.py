@@ -172,7 +172,7 @@ def leak(outcome: Any) -> np.ndarray:
 
 DRAWN: Mapping[str, Callable[[Any], np.ndarray]] = MappingProxyType(
     {
-        "coated-disk": below,
+        "coated-disk": lambda outcome: below(outcome, 0.6),
         "ball-on-coating": below,
         "rubber-on-ground": growth,
         "flattened-metal": flattened,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -23,9 +24,17 @@ def app() -> Iterator[AppServer]:
         yield running
 
 
+def begin(app: AppServer, open_page: Callable[..., Any], width: int = 1400) -> Any:
+    """The page on which sessions begin, also while there are some."""
+    page = open_page(app.address, viewport={"width": width, "height": 900}).page
+    page.wait_for_url(re.compile(r"/(start|s/.*)$"))
+    page.goto(re.sub(r"/(start|s/.*)$", "/start", page.url))
+    return page
+
+
 @pytest.mark.parametrize("width", [1400, 420])
 def test_examples_stand_with_their_pictures(app: AppServer, open_page: Callable[..., Any], width: int) -> None:
-    page = open_page(app.address, viewport={"width": width, "height": 900}).page
+    page = begin(app, open_page, width)
     page.wait_for_selector("[data-example]")
     page.evaluate("document.querySelectorAll('.example img').forEach((img) => { img.loading = 'eager' })")
     page.wait_for_function(
@@ -46,7 +55,7 @@ def test_examples_stand_with_their_pictures(app: AppServer, open_page: Callable[
 
 @pytest.mark.parametrize("name", ["metal-seal", "flattened-metal"])
 def test_a_press_leads_to_the_result(app: AppServer, open_page: Callable[..., Any], name: str) -> None:
-    page = open_page(app.address, viewport={"width": 1400, "height": 900}).page
+    page = begin(app, open_page)
     page.focus(f"[data-example={name}]")
     page.keyboard.press("Enter")
     page.wait_for_url("**/explore?run=*", timeout=LONG)
@@ -66,7 +75,7 @@ def test_a_run_that_fails_says_why(open_page: Callable[..., Any]) -> None:
 
 
 def test_an_interface_of_the_literature_is_opened(app: AppServer, open_page: Callable[..., Any]) -> None:
-    page = open_page(app.address, viewport={"width": 1400, "height": 900}).page
+    page = begin(app, open_page)
     page.click("button:has-text('mems')")
     base_of(page)
     page.wait_for_selector("text=Carbon on a silicon micro-machine")

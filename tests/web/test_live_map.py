@@ -122,6 +122,7 @@ def test_what_needs_a_file_says_so(page: Any) -> None:
 
 def test_typed_values_survive_another_choice(page: Any) -> None:
     generator(page, "sphere")
+    page.wait_for_selector('input[data-key="surface.radius"]')
     fill(page, "surface.points", "64x64")
     fill(page, "surface.radius", "7 um")
     page.wait_for_selector("text=64 × 64 points")

@@ -93,8 +93,9 @@ def _open_sessions(place: Place) -> None:
     ui.html("<h2>Open sessions</h2>", sanitize=False)
     for key, session in place.sessions.items():
         title = str(session.draft.get("title") or "Contact without a title")
+        count = len(session.runs)
         kept = f" – kept in {session.folder}" if session.kept else ""
-        ui.link(f"{title}{kept}, {len(session.runs)} runs", f"/s/{key}/surface")
+        ui.link(f"{title}{kept}, {count} run{'' if count == 1 else 's'}", f"/s/{key}/surface")
 
 
 def _example(place: Place, name: str, question: str) -> None:
