@@ -65,7 +65,7 @@ class Stack:
     @property
     def total(self) -> float:
         """Thickness of all layers that have one, in m."""
-        return math.fsum(piece.thickness for piece in self.layers if math.isfinite(piece.thickness))
+        return sum(piece.thickness for piece in self.layers if math.isfinite(piece.thickness))
 
 
 def stack_of(body: Any, materials: Materials, *, default: str = "") -> Stack:
@@ -83,7 +83,7 @@ def stack_of(body: Any, materials: Materials, *, default: str = "") -> Stack:
         found = materials.of(part, library)
         if not found.name:
             return Piece(NOT_CHOSEN, "open", **more)
-        missing = "" if found.known else "elastic constants missing"
+        missing = "" if found.known else "E, ν missing"
         named = colours.setdefault(found.identity, FILLS[len(colours) % len(FILLS)])
         return Piece(found.name, "chosen" if found.known else "open", colours=(named, named), missing=missing, **more)
 
@@ -119,8 +119,9 @@ def _number(value: Any) -> float:
 
 
 def heights(thicknesses: Sequence[float], room: float) -> tuple[list[float], list[int]]:
-    """Heights of layers of these ``thicknesses`` in a drawing with ``room`` for all of them, and the
-    numbers of those that are drawn thicker than they are, since they would be thinner than a pixel.
+    """Heights of layers of these ``thicknesses`` in a drawing with ``room`` for all of them, and
+    the numbers of those that are drawn thicker than they are, since they would be thinner than a
+    pixel.
 
     A thickness that is not known has the least height.
     """
@@ -128,7 +129,7 @@ def heights(thicknesses: Sequence[float], room: float) -> tuple[list[float], lis
     thin: set[int] = set()
     while True:
         left = {number: value for number, value in known.items() if number not in thin}
-        scale = max(room - LEAST * (len(thicknesses) - len(left)), LEAST) / (math.fsum(left.values()) or 1.0)
+        scale = max(room - LEAST * (len(thicknesses) - len(left)), LEAST) / (sum(left.values()) or 1.0)
         below = {number for number, value in left.items() if value * scale < THIN}
         if not below:
             break
@@ -148,7 +149,9 @@ def drawn(stack: Stack, name: str) -> str:
         parts.append(_shape(piece, y, tall, f"{name}-{number}", kind))
         labels.append((y + tall / 2, piece.text, "gap" if piece.state == "open" else ""))
         if piece.slips:
-            parts.append(f'<line x1="{LEFT}" x2="{LEFT + WIDE}" y1="{y + tall:.2f}" y2="{y + tall:.2f}" class="slips"/>')
+            parts.append(
+                f'<line x1="{LEFT}" x2="{LEFT + WIDE}" y1="{y + tall:.2f}" y2="{y + tall:.2f}" class="slips"/>'
+            )
             labels.append((y + tall, "slips without friction", "soft"))
     if stack.layers:
         parts.append(f'<path d="M{LEFT - 9} {TOP}h5m-2.5 0V{tops[-1]:.2f}m-2.5 0h5" class="measure"/>')

@@ -14,8 +14,8 @@ from ..core.errors import AsperityError
 from ..run.document import PRESETS, read_table
 from .beginning import fill
 from .layout import frame, look
-from .pages_explore import explore_page
 from .pages_bodies import bodies_page
+from .pages_explore import explore_page
 from .pages_load import load_page
 from .pages_run import run_page
 from .pages_surface import prepare_page, roughness_page, surface_page

@@ -105,6 +105,8 @@ def _load(context: Context, item: Asked) -> None:
         value = context.get((LOAD,))
         return [name for name in CONTROLS if isinstance(value, Mapping) and value.get(name) is not None]
 
+    chosen = next(iter(given()), CONTROLS[0])
+
     def choose(word: str) -> None:
         nonlocal chosen
         if word != chosen:
@@ -124,7 +126,6 @@ def _load(context: Context, item: Asked) -> None:
             ui.label(first_paragraph(tables[""]).replace("``", "")).classes("hint")
             form(context, tables[""], (LOAD, "path"))
 
-    chosen = next(iter(given()), CONTROLS[0])
     with ui.card().classes("table").props("flat bordered"):
         ui.label("Control: what is prescribed").classes("table-title")
         words = {name: "Load path" if name == "path" else label_of(name) for name in CONTROLS}
