@@ -156,7 +156,7 @@ class Cell:
 
     def _typed(self) -> Any:
         made = entry(self.context, ENTRIES[self.key], self.place, bare=True)
-        return made.props(f'placeholder="{"needed" if self.key in CONSTANTS else "not known"}"')
+        return made.props(f'placeholder="{"needed" if self.key in CONSTANTS else "unknown"}"')
 
     def _source(self, own_constants: Callable[[], None]) -> None:
         """What the button opens."""

@@ -19,7 +19,7 @@ FILLS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00")
 
 NOT_CHOSEN = "not chosen yet"
 
-LEFT, WIDE, TOP, TALL, LABELS = 26.0, 150.0, 10.0, 220.0, 170.0
+LEFT, WIDE, TOP, TALL, LABELS = 26.0, 150.0, 10.0, 220.0, 184.0
 """Place and size of the stack in units of the drawing, of about a pixel, and room for labels."""
 
 LINE = 15.0
@@ -28,7 +28,7 @@ LINE = 15.0
 THIN, LEAST = 1.0, 5.0
 """Height below which a layer would not be seen, and with which it is drawn instead."""
 
-LONGEST = 26
+LONGEST = 24
 """Letters of a label; the whole text is that of its title."""
 
 
@@ -83,7 +83,7 @@ def stack_of(body: Any, materials: Materials, *, default: str = "") -> Stack:
         found = materials.of(part, library)
         if not found.name:
             return Piece(NOT_CHOSEN, "open", **more)
-        missing = "" if found.known else "E, ν missing"
+        missing = "" if found.known else "E or ν missing"
         named = colours.setdefault(found.identity, FILLS[len(colours) % len(FILLS)])
         return Piece(found.name, "chosen" if found.known else "open", colours=(named, named), missing=missing, **more)
 

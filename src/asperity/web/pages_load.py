@@ -90,9 +90,9 @@ def summary(name: str, table: Any) -> str:
     """What the table ``name`` says, in a few words."""
     if not isinstance(table, Mapping) or not table:
         return SETTINGS[name]
-    kind = [str(table["kind"]).replace("_", " ")] if "kind" in table else []
-    rest = [f"{label_of(key).lower()} {value}" for key, value in table.items() if key != "kind"]
-    return ", ".join([*kind, *rest])
+    kind = str(table.get("kind", ""))
+    named = [kind.replace("_", " ")] if kind and kind not in table else []
+    return ", ".join([*named, *(f"{label_of(key).lower()} {value}" for key, value in table.items() if key != "kind")])
 
 
 def _load(context: Context, item: Asked) -> None:
