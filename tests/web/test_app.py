@@ -58,8 +58,11 @@ def choose(page: Any, key: str, word: str) -> None:
 
 
 def details(page: Any, row: str) -> None:
-    """Unfold what a row or card has beside."""
-    page.click(f'[data-details="{row}"] >> nth=0')
+    """Unfold what a row or card has beside, where it is folded."""
+    fold = page.locator(f'[data-details="{row}"]')
+    header = "e => e.matches('[aria-expanded]') ? e : e.querySelector('[aria-expanded]')"
+    if fold.evaluate(f"e => ({header})(e).getAttribute('aria-expanded')") == "false":
+        fold.click()
 
 
 def put(page: Any, file: Path) -> None:

@@ -20,8 +20,9 @@ from asperity.core.errors import InputError, OutputError
 from asperity.io.schemas.surfaces import SURFACE_TABLES
 from asperity.physics.stress.part import StressSettings
 from asperity.web.draft import Draft, forms_of
+from asperity.web.drawing import drawn, stack_of
 from asperity.web.forms import asked_of
-from asperity.web.pages_problem import drawn
+from asperity.web.resolved import Materials
 from asperity.web.session import Place, Session
 from asperity.web.workers import Limits, Worker
 
@@ -96,13 +97,15 @@ HOSTILE = (
 )
 
 
-def test_hostile_materials_are_drawn_as_text() -> None:
+def test_hostile_materials_are_drawn_as_text(tmp_path: Path) -> None:
     for text in HOSTILE:
+        graded = {"kind": "linear", "top": text, "bottom": {"name": text}, "thickness": "1e300 m"}
         body = {
-            "layers": [{"material": text, "thickness": text}, {"name": text, "thickness": "5 nm"}],
+            "layers": [{"material": text, "thickness": text}, {"name": text, "thickness": "5 nm"}, graded],
             "base": {"name": text},
         }
-        for shown in (drawn(body, title=text), drawn(text, title="body"), drawn({"material": text}, title="body")):
+        for item in (body, text, {"material": text}, {"layers": [text], "base": text}, [text], {"layers": text}):
+            shown = drawn(stack_of(item, Materials(tmp_path)), "body")
             assert "<script" not in shown
             assert "<img" not in shown
             assert shown.count("<svg") == 1

@@ -107,9 +107,12 @@ def material_choice(context: Context, keys: Keys, library: str | None, chosen: C
         options[way] = WAYS.get(way, str(way))
     if way == OWN and part.get("name") not in (None, START["name"]):
         options[OWN] = f"{part['name']} (own)"
-    made = ui.select(
-        options, value=way, with_input=True, on_change=lambda e: chosen(e.value) if e.value != way else None
-    )
+
+    def choose(word: str | None) -> None:
+        if word != way_of(context.get(keys) or {}, library):
+            chosen(word)
+
+    made = ui.select(options, value=way, with_input=True, on_change=lambda e: choose(e.value))
     made.props(f'dense options-dense data-key="{".".join(map(str, (*keys, "material")))}" placeholder="choose"')
     made.props["aria-label"] = "Material"
     made.classes("field")
@@ -131,6 +134,7 @@ class Cell:
         own_constants: Callable[[], None],
     ) -> None:
         self.context, self.materials, self.keys, self.key, self.library = context, materials, keys, key, library
+        self.own: Any = None
         part = context.get(keys) or {}
         with ui.element("div").classes("cell").props(f'data-symbol="{SHOWN[key]}"'):
             self.typed = self._typed() if is_own(part) else None
@@ -152,7 +156,7 @@ class Cell:
 
     def _typed(self) -> Any:
         made = entry(self.context, ENTRIES[self.key], self.place, bare=True)
-        return made.props(f'placeholder="{"needed" if self.key in CONSTANTS else "not known"}"')
+        return made.props(f'placeholder="{"needed" if self.key in CONSTANTS else "unknown"}"')
 
     def _source(self, own_constants: Callable[[], None]) -> None:
         """What the button opens."""
@@ -160,7 +164,7 @@ class Cell:
             self.title = ui.label().classes("table-title")
             self.said, self.note = ui.label(), ui.label().classes("hint")
             if self.key in BESIDE and self.typed is None:
-                own = entry(self.context, replace(ENTRIES[self.key], label="Own value"), self.place)
+                own = self.own = entry(self.context, replace(ENTRIES[self.key], label="Own value"), self.place)
                 self.back = ui.button("Give it back to the library", icon="undo", on_click=lambda: own.set_value(""))
                 self.back.props(f'flat dense no-caps data-back="{".".join(map(str, self.place))}"')
             elif self.typed is None:
@@ -180,8 +184,10 @@ class Cell:
             self.mark.set_text("" if not (inline and value.text) else "own" if plain else f"= {value.text}")
         else:
             self.mark.set_text("own" if value.own else "assumed" if value.assumed else "relaxes" if relaxes else "")
-            if self.key in BESIDE:
+            if self.own is not None:
                 self.back.set_visibility(value.own)
+                if self.own.value and not value.own:
+                    self.own.set_value("")
         self.mark.set_visibility(bool(self.mark.text))
         self.button.set_text(value.text or ("–" if not material.name else "not known"))
         self.button.props["aria-label"] = f"{value.label}: {value.text or 'not known'}. Press for its source"

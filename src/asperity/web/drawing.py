@@ -19,7 +19,7 @@ FILLS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00")
 
 NOT_CHOSEN = "not chosen yet"
 
-LEFT, WIDE, TOP, TALL, LABELS = 26.0, 150.0, 10.0, 220.0, 170.0
+LEFT, WIDE, TOP, TALL, LABELS = 26.0, 150.0, 10.0, 220.0, 184.0
 """Place and size of the stack in units of the drawing, of about a pixel, and room for labels."""
 
 LINE = 15.0
@@ -28,7 +28,7 @@ LINE = 15.0
 THIN, LEAST = 1.0, 5.0
 """Height below which a layer would not be seen, and with which it is drawn instead."""
 
-LONGEST = 26
+LONGEST = 24
 """Letters of a label; the whole text is that of its title."""
 
 
@@ -65,7 +65,7 @@ class Stack:
     @property
     def total(self) -> float:
         """Thickness of all layers that have one, in m."""
-        return math.fsum(piece.thickness for piece in self.layers if math.isfinite(piece.thickness))
+        return sum(piece.thickness for piece in self.layers if math.isfinite(piece.thickness))
 
 
 def stack_of(body: Any, materials: Materials, *, default: str = "") -> Stack:
@@ -83,7 +83,7 @@ def stack_of(body: Any, materials: Materials, *, default: str = "") -> Stack:
         found = materials.of(part, library)
         if not found.name:
             return Piece(NOT_CHOSEN, "open", **more)
-        missing = "" if found.known else "elastic constants missing"
+        missing = "" if found.known else "E or ν missing"
         named = colours.setdefault(found.identity, FILLS[len(colours) % len(FILLS)])
         return Piece(found.name, "chosen" if found.known else "open", colours=(named, named), missing=missing, **more)
 
@@ -119,8 +119,9 @@ def _number(value: Any) -> float:
 
 
 def heights(thicknesses: Sequence[float], room: float) -> tuple[list[float], list[int]]:
-    """Heights of layers of these ``thicknesses`` in a drawing with ``room`` for all of them, and the
-    numbers of those that are drawn thicker than they are, since they would be thinner than a pixel.
+    """Heights of layers of these ``thicknesses`` in a drawing with ``room`` for all of them, and
+    the numbers of those that are drawn thicker than they are, since they would be thinner than a
+    pixel.
 
     A thickness that is not known has the least height.
     """
@@ -128,7 +129,7 @@ def heights(thicknesses: Sequence[float], room: float) -> tuple[list[float], lis
     thin: set[int] = set()
     while True:
         left = {number: value for number, value in known.items() if number not in thin}
-        scale = max(room - LEAST * (len(thicknesses) - len(left)), LEAST) / (math.fsum(left.values()) or 1.0)
+        scale = max(room - LEAST * (len(thicknesses) - len(left)), LEAST) / (sum(left.values()) or 1.0)
         below = {number for number, value in left.items() if value * scale < THIN}
         if not below:
             break

@@ -50,6 +50,7 @@ class BodyForm:
 
     def __init__(self, session: Session, name: str, title: str, resolving: Materials, refused: Refused) -> None:
         self.session, self.name, self.resolving, self.refused = session, name, resolving, refused
+        self.client = ui.context.client
         self.context = Context(session, self.changed)
         item = next(item for item in asked_of(document_model()) if item.name == name)
         assert item.tables is not None
@@ -57,6 +58,7 @@ class BodyForm:
         self.entries = {entry.name: entry for entry in asked_of(self.table)}
         self.cells: list[Cell] = []
         self.swatches: list[ui.element] = []
+        self.beside: list[tuple[Keys, ui.element]] = []
         before = session.draft.get(name)
         if before != as_tables(before):
             session.draft.set((name,), as_tables(before))
@@ -104,11 +106,17 @@ class BodyForm:
     # Changes.
 
     def changed(self, keys: Keys) -> None:
-        """Drawing and values follow the draft."""
+        """Drawing and values follow the draft; a relaxation takes the place of Young's modulus."""
+        if keys[-1] == "relaxation" and self.context.get(keys):
+            for cell in self.cells:
+                if cell.place == (*keys[:-1], "youngs_modulus") and cell.typed is not None:
+                    cell.typed.set_value("")
         self.drawing.set_content(self.drawn())
         self._coloured()
         for cell in self.cells:
             cell.update()
+        for place, inside in self.beside:
+            self._beside(place, inside)
         self.refused.later()
 
     def put(self, value: dict[str, Any], focus: str = "") -> None:
@@ -118,7 +126,7 @@ class BodyForm:
         self.toggle.set_value(self.kind())
         self.redraw()
         if focus:
-            ui.run_javascript(f"document.querySelector('{focus}')?.focus()")
+            self.client.run_javascript(f"document.querySelector('{focus}')?.focus()")
 
     def put_layers(self, layers: list[dict[str, Any]], focus: str = "") -> None:
         """Take ``layers``; without any the base is the body."""
@@ -139,12 +147,14 @@ class BodyForm:
             self.put({**({} if (value.get("base") or {}).get("rigid") else shared), **(value.get("base") or {})}, focus)
 
     def put_part(self, keys: Keys, part: dict[str, Any]) -> None:
-        """Take ``part`` for the table at ``keys``, and draw the rows again."""
-        if len(keys) == 1:
-            self.put(part)
-            return
-        self.context.set(keys, part or {})
-        self.redraw()
+        """Take ``part`` for the table at ``keys``, and draw the rows again where they have other
+        entries then."""
+        before = self.context.get(keys) or {}
+        self.context.set(keys, part if len(keys) > 1 else part or None)
+        self.toggle.set_value(self.kind())
+        named = all(not is_own(one) and not one.get("rigid") and "top" not in one for one in (before, part))
+        if not named or before.keys() - part.keys() - {"material"} or part.get("kind") != before.get("kind"):
+            self.redraw()
 
     def choose(self, word: str | None) -> None:
         """Take another kind of body."""
@@ -170,7 +180,7 @@ class BodyForm:
 
     def redraw(self) -> None:
         """Draw all rows again."""
-        self.cells, self.swatches = [], []
+        self.cells, self.swatches, self.beside = [], [], []
         self.rows.clear()
         with self.rows:
             if self.kind() is None:
@@ -318,7 +328,8 @@ class BodyForm:
                 with inside:
                     self._library_again(keys)
                     form(self.context, model, keys, leave)
-                    self._beside(keys)
+                    self.beside.append((keys, ui.element("div")))
+                    self._beside(*self.beside[-1])
             inside.set_visibility(there)
             button.props(f"icon={'expand_less' if there else 'expand_more'} aria-expanded={str(there).lower()}")
 
@@ -349,13 +360,15 @@ class BodyForm:
                 on_click=lambda: self.put_part(keys, self._with_way(keys, way)),
             ).props(f'flat dense no-caps data-back="{_dotted(keys)}"').classes("back")
 
-    def _beside(self, keys: Keys) -> None:
-        """What the library knows of a material beside what the row shows."""
+    def _beside(self, keys: Keys, inside: ui.element) -> None:
+        """Show ``inside`` what the library knows of a material beside what its row has."""
         found = self.resolving.of(self.context.get(keys) or {}, self.library()).values.values()
         known = [v for v in found if v.key not in SHOWN and v.text and v.source and not v.own]
+        inside.clear()
         if known:
-            ui.label("Of the library").classes("table-title")
-            rows([(value.label, f"{value.text} – {value.source}") for value in known])
+            with inside:
+                ui.label("Of the library").classes("table-title")
+                rows([(value.label, f"{value.text} – {value.source}") for value in known])
 
 
 def _dotted(keys: Keys) -> str:

@@ -90,9 +90,9 @@ def summary(name: str, table: Any) -> str:
     """What the table ``name`` says, in a few words."""
     if not isinstance(table, Mapping) or not table:
         return SETTINGS[name]
-    kind = [str(table["kind"]).replace("_", " ")] if "kind" in table else []
-    rest = [f"{label_of(key).lower()} {value}" for key, value in table.items() if key != "kind"]
-    return ", ".join([*kind, *rest])
+    kind = str(table.get("kind", ""))
+    named = [kind.replace("_", " ")] if kind and kind not in table else []
+    return ", ".join([*named, *(f"{label_of(key).lower()} {value}" for key, value in table.items() if key != "kind")])
 
 
 def _load(context: Context, item: Asked) -> None:
@@ -104,6 +104,8 @@ def _load(context: Context, item: Asked) -> None:
     def given() -> list[str]:
         value = context.get((LOAD,))
         return [name for name in CONTROLS if isinstance(value, Mapping) and value.get(name) is not None]
+
+    chosen = next(iter(given()), CONTROLS[0])
 
     def choose(word: str) -> None:
         nonlocal chosen
@@ -124,7 +126,6 @@ def _load(context: Context, item: Asked) -> None:
             ui.label(first_paragraph(tables[""]).replace("``", "")).classes("hint")
             form(context, tables[""], (LOAD, "path"))
 
-    chosen = next(iter(given()), CONTROLS[0])
     with ui.card().classes("table").props("flat bordered"):
         ui.label("Control: what is prescribed").classes("table-title")
         words = {name: "Load path" if name == "path" else label_of(name) for name in CONTROLS}
