@@ -46,7 +46,8 @@ RUNS = (
 
 
 def solved(open_page: Any, folder: Path, runs: int = len(RUNS)) -> Path:
-    """Folder of a kept session with the first ``runs`` of ``RUNS``, made in the application below ``folder``."""
+    """Folder of a kept session with the first ``runs`` of ``RUNS``, made in the application below
+    ``folder``."""
     kept = folder / "kept"
     for number, run in enumerate(RUNS[:runs], start=1):
         document = folder / f"{run['title']}.toml"

@@ -63,26 +63,34 @@ def to(page: Any, name: str, query: str = "") -> None:
     page.wait_for_timeout(1500)
 
 
-def violations(page: Any) -> list[str]:
-    """Rule, place and reason of everything that axe-core finds."""
+def violations(page: Any, within: str = "html") -> list[str]:
+    """Rule, place and reason of everything that axe-core finds ``within`` an element."""
     page.evaluate(AXE.read_text(encoding="utf-8"))
     found = page.evaluate(
-        "(rules) => axe.run(document, rules).then((all) => all.violations.flatMap((rule) => rule.nodes.map((node) =>"
+        "([within, rules]) => axe.run(within, rules).then((all) => all.violations.flatMap((rule) => rule.nodes.map((node) =>"
         " `${rule.id}: ${node.html.slice(0, 200)} ${node.failureSummary}`)))",
-        {
-            "runOnly": {"type": "tag", "values": list(LEVELS)},
-            "rules": {name: {"enabled": False} for name in LEFT_OFF},
-        },
+        [
+            within,
+            {
+                "runOnly": {"type": "tag", "values": list(LEVELS)},
+                "rules": {name: {"enabled": False} for name in LEFT_OFF},
+            },
+        ],
     )
     return [str(item) for item in found]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("scheme", SCHEMES)
-@pytest.mark.parametrize("name", PAGES)
-def test_no_page_violates_wcag(name: str, scheme: str, app: AppServer, open_page: Open) -> None:
-    page = opened(app, open_page, name, color_scheme=scheme)
-    assert violations(page) == []
+def test_no_page_violates_wcag(scheme: str, app: AppServer, open_page: Open) -> None:
+    page = opened(app, open_page, "surface", color_scheme=scheme)
+    found = {}
+    for name in PAGES:
+        back = page.url
+        to(page, name)
+        found[name] = violations(page)
+        page.goto(back)
+    assert not any(found.values()), found
 
 
 @pytest.mark.slow
@@ -98,7 +106,8 @@ def test_nothing_that_opens_violates_wcag(scheme: str, app: AppServer, open_page
         summary.click()
     for item in page.locator(".q-expansion-item").all():
         item.locator(".q-item").first.click()
-    page.click("[data-theories]")
+    if page.locator("[data-theories]").count():
+        page.click("[data-theories]")
     page.wait_for_selector(".theories .main-svg", timeout=LONG)
     page.wait_for_selector(".space .main-svg", timeout=LONG)
     page.wait_for_timeout(500)
@@ -110,10 +119,13 @@ def test_nothing_that_opens_violates_wcag(scheme: str, app: AppServer, open_page
     assert violations(page) == []
     page.keyboard.press("Escape")
     page.click("text=Copy as")
-    page.click(".q-menu >> text=document")
-    page.wait_for_selector(".q-dialog .code")
+    page.wait_for_selector(".q-menu >> text=document")
     page.wait_for_timeout(400)
     assert violations(page) == []
+    page.click(".q-menu >> text=document")
+    page.wait_for_selector(".q-dialog .code")
+    page.wait_for_timeout(1500)
+    assert violations(page, ".q-dialog") == []
 
 
 @pytest.mark.slow
@@ -125,46 +137,42 @@ def test_no_report_violates_wcag(scheme: str, kept: Path, open_page: Open) -> No
     assert violations(page) == []
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", PAGES)
-def test_every_page_has_language_landmarks_and_names(name: str, app: AppServer, open_page: Open) -> None:
-    page = opened(app, open_page, name)
-    assert page.evaluate("document.documentElement.lang").startswith("en")
-    assert page.locator("main, [role=main]").count() == 1
-    assert page.locator("main").get_attribute("aria-label")
-    assert page.locator("h1").count() == 1
-    if name != "start":
-        assert page.locator("header").count() == 1
-        assert page.locator("nav[aria-label]").count() == 1
-        assert page.locator("nav [aria-current=page]").count() == 1
+UNREACHED = """() => [...document.querySelectorAll("body *")].filter((e) => {
+    const style = getComputedStyle(e), focused = (x) => x.tabIndex >= 0 && !x.disabled;
+    if (!["pointer", "crosshair", "move"].includes(style.cursor) || !e.offsetParent) return false;
+    if (e.parentElement && getComputedStyle(e.parentElement).cursor === style.cursor) return false;
+    for (let x = e; x; x = x.parentElement) if (focused(x)) return false;
+    const field = e.closest("label, .q-field, .av-stage, .js-plotly-plot") || e;
+    return ![...field.querySelectorAll("*")].some(focused);
+    }).map((e) => e.outerHTML.slice(0, 160))"""
+"""What answers to a press, where neither it nor what is around or within it takes the focus."""
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", PAGES)
-def test_everything_that_is_pressed_is_reached_by_keyboard(name: str, app: AppServer, open_page: Open) -> None:
-    page = opened(app, open_page, name)
-    if name == "explore":
-        page.click("[data-spots]")
-        page.wait_for_selector("tr[data-spot]", timeout=LONG)
-    # what answers to a press: it or something within or around it takes the focus
-    unreached = page.evaluate(
-        """() => [...document.querySelectorAll("body *")].filter((e) => {
-        const style = getComputedStyle(e);
-        if (!["pointer", "crosshair", "move"].includes(style.cursor) || !e.offsetParent) return false;
-        if (e.parentElement && getComputedStyle(e.parentElement).cursor === style.cursor) return false;
-        const focused = (x) => x.tabIndex >= 0 && !x.disabled;
-        for (let x = e; x; x = x.parentElement) if (focused(x)) return false;
-        const field = e.closest("label, .q-field, .q-tabs, .av-stage, .js-plotly-plot");
-        return !(focused(e) || [...(field || e).querySelectorAll("*")].some(focused));
-        }).map((e) => e.outerHTML.slice(0, 160))"""
-    )
-    assert unreached == []
-    page.evaluate("document.activeElement.blur()")
-    reached = set()
-    for _ in range(12):
-        page.keyboard.press("Tab")
-        reached.add(page.evaluate("document.activeElement.outerHTML.slice(0, 300)"))
-    assert len(reached) > 5
+def test_every_page_has_language_landmarks_and_is_reached_by_keyboard(app: AppServer, open_page: Open) -> None:
+    page = opened(app, open_page, "surface")
+    for name in PAGES:
+        back = page.url
+        to(page, name)
+        assert page.evaluate("document.documentElement.lang").startswith("en"), name
+        assert page.locator("main, [role=main]").count() == 1, name
+        assert page.locator("main").get_attribute("aria-label"), name
+        assert page.locator("h1").count() == 1, name
+        if name != "start":
+            assert page.locator("header").count() == 1, name
+            assert page.locator("nav[aria-label]").count() == 1, name
+            assert page.locator("nav [aria-current=page]").count() == 1, name
+        if name == "explore":
+            page.click("[data-spots]")
+            page.wait_for_selector("tr[data-spot]", timeout=LONG)
+        assert page.evaluate(UNREACHED) == [], name
+        page.evaluate("document.activeElement.blur()")
+        reached = set()
+        for _ in range(8):
+            page.keyboard.press("Tab")
+            reached.add(page.evaluate("document.activeElement.outerHTML.slice(0, 300)"))
+        assert len(reached) > 5, name
+        page.goto(back)
 
 
 def contrast(first: str, second: str) -> float:
@@ -191,7 +199,8 @@ def test_dark_or_light_is_kept_and_axes_are_legible_in_both(app: AppServer, open
     assert not page.evaluate(is_dark), "as the system at first"
     page.click("[data-space]")
     page.click("[data-compared]")
-    page.click("[data-theories]")
+    if page.locator("[data-theories]").count():
+        page.click("[data-theories]")
     page.wait_for_selector(".theories .main-svg", timeout=LONG)
     page.wait_for_selector(".space .main-svg", timeout=LONG)
     page.wait_for_timeout(800)
@@ -219,9 +228,12 @@ def test_dark_or_light_is_kept_and_axes_are_legible_in_both(app: AppServer, open
     page.reload()
     page.wait_for_selector("[data-ready]", timeout=LONG)
     assert page.evaluate(is_dark)
-    for name in ("surface", "start", "explore"):
+    for name in ("surface", "explore", "start"):
+        back = page.url
         to(page, name)
         assert page.evaluate(is_dark), name
+    page.goto(back)
+    page.wait_for_selector("[data-ready]", timeout=LONG)
     page.click("[aria-label='dark or light']")
     assert page.locator("[data-look=dark]").get_attribute("aria-checked") == "true"
     page.click("[data-look=system]")

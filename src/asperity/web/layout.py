@@ -147,7 +147,8 @@ def _copies(session: Session) -> None:
         text = {"Python": forms.python, "command": forms.command, "document": forms.document}[kind]
         with ui.dialog() as dialog, ui.card().classes("copy"):
             ui.label(f"The problem as {kind}").classes("table-title")
-            ui.code(text, language={"Python": "python", "command": "bash", "document": "toml"}[kind]).classes("code")
+            code = ui.code(text, language={"Python": "python", "command": "bash", "document": "toml"}[kind])
+            code.classes("code").copy_button.props('aria-label="copy"')
             with ui.row():
                 ui.button("Copy", icon="content_copy", on_click=lambda: ui.clipboard.write(text)).props("no-caps")
                 name = {"Python": "problem.py", "command": "problem.sh", "document": "problem.toml"}[kind]
@@ -159,7 +160,7 @@ def _copies(session: Session) -> None:
 
     with ui.button("Copy as", icon="content_copy").props("flat dense no-caps").classes("copy-as"), ui.menu():
         for kind in ("Python", "command", "document"):
-            ui.menu_item(kind, on_click=lambda k=kind: copy(k))
+            ui.menu_item(kind, on_click=lambda k=kind: copy(k)).props('role="menuitem"')
 
 
 def _keeping(place: Place, session: Session) -> None:

@@ -369,6 +369,8 @@ function watchPlots() {
 const style = new MutationObserver(restyle);
 document.addEventListener("DOMContentLoaded", () => style.observe(document.body, { attributes: true, attributeFilter: ["class"] }));
 
-const look = () => { all("[data-scene]:not([data-mounted])").forEach(mount); watchPlots(); };
+/* The bar at the top of the window is Quasar's, and has no name of its own. */
+const named = () => { for (const bar of all(".q-loading-bar:not([aria-label])")) bar.setAttribute("aria-label", "loading"); };
+const look = () => { all("[data-scene]:not([data-mounted])").forEach(mount); watchPlots(); named(); };
 new MutationObserver(look).observe(document.documentElement, { childList: true, subtree: true });
 })();
