@@ -234,7 +234,7 @@ def test_a_body_that_is_not_chosen_is_not_drawn_as_rigid(
     page.click('[data-key="counter_body.kind"] >> text=Rigid')
     page.wait_for_function("document.querySelector('[data-body=counter_body] .stack').textContent === 'rigid'")
     page.click('[data-key="body.kind"] >> text=Own constants')
-    page.wait_for_selector("[data-body=body] .stack :text('own material')")
+    page.wait_for_selector("[data-body=body] .stack text:text-is('own material')")
     assert body.locator("rect.open").count() == 1
 
 

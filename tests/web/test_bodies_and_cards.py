@@ -53,6 +53,7 @@ def test_a_material_of_the_library_is_resolved_with_its_sources_and_taken_as_own
         holder = next(one for one in (made, made.strength, made.conduction) if hasattr(one, key))
         assert getattr(holder, key) == pytest.approx(record.values[key].value, rel=TWELVE)
     assert way_of(own, None) == OWN
+    assert way_of({"material": record.name}, record) == record.name
     assert with_way(own, record.name, None) == {**kept, "material": record.name}
 
 

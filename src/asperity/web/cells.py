@@ -10,9 +10,8 @@ from typing import Any
 
 from nicegui import ui
 
-from ..core.errors import AsperityError
 from ..io.schemas.bodies import BESIDE, CONSTANTS, MaterialTable
-from ..solids.library import MaterialRecord, materials
+from ..solids.library import MaterialRecord
 from .draft import Keys
 from .forms import asked_of
 from .resolved import SHOWN, Materials, Resolved, Value, is_own, record_of, shown
@@ -33,22 +32,13 @@ START = MappingProxyType({"name": "own material"})
 """Own constants before any is typed."""
 
 
-def names_in(library: str | None) -> list[str]:
-    """Names of the materials, with those of the own file ``library`` if it can be read."""
-    try:
-        return [record.name for record in materials(library)]
-    except AsperityError:
-        return [record.name for record in materials()]
-
-
-def way_of(part: Mapping[str, Any], library: str | None) -> str | None:
-    """What the choice of a material shows for the table ``part``; None where nothing has been
-    chosen."""
+def way_of(part: Mapping[str, Any], record: MaterialRecord | None) -> str | None:
+    """What the choice of a material shows for the table ``part``, of which the library knows the
+    ``record``; None where nothing has been chosen."""
     if part.get("rigid"):
         return RIGID
     if is_own(part):
         return RELAXING if part.get("relaxation") else OWN
-    record = record_of(part, library)
     return record.name if record else part.get("material")
 
 
@@ -97,25 +87,33 @@ def taken(record: MaterialRecord) -> dict[str, Any]:
     return found
 
 
-def material_choice(context: Context, keys: Keys, library: str | None, chosen: Callable[[str | None], None]) -> None:
+def material_choice(
+    context: Context,
+    resolving: Materials,
+    keys: Keys,
+    library: str | None,
+    chosen: Callable[[str | None], None],
+) -> None:
     """Choice of the material of the table at ``keys``; ``chosen`` takes its way."""
     part = context.get(keys) or {}
-    way = way_of(part, library)
+    way = way_of(part, resolving.of(part, library).record)
     ways = [OWN, RELAXING, *([RIGID] if keys[-1] == "base" else [])]
-    options = {**{word: WAYS[word] for word in ways}, **{name: name for name in names_in(library)}}
+    options = {**{word: WAYS[word] for word in ways}, **{name: name for name in resolving.names(library)}}
     if way is not None and way not in options:
         options[way] = WAYS.get(way, str(way))
     if way == OWN and part.get("name") not in (None, START["name"]):
         options[OWN] = f"{part['name']} (own)"
 
     def choose(word: str | None) -> None:
-        if word != way_of(context.get(keys) or {}, library):
+        now = context.get(keys) or {}
+        if word != way_of(now, resolving.of(now, library).record):
             chosen(word)
 
     made = ui.select(options, value=way, with_input=True, on_change=lambda e: choose(e.value))
-    made.props(f'dense options-dense data-key="{".".join(map(str, (*keys, "material")))}" placeholder="choose"')
-    made.props["aria-label"] = "Material"
-    made.classes("field")
+    made.classes("field").props(
+        f'dense options-dense data-key="{".".join(map(str, (*keys, "material")))}" placeholder="choose" '
+        'aria-label="Material"'
+    )
 
 
 class Cell:
@@ -133,14 +131,14 @@ class Cell:
         library: Callable[[], str | None],
         own_constants: Callable[[], None],
     ) -> None:
-        self.context, self.materials, self.keys, self.key, self.library = context, materials, keys, key, library
         self.own: Any = None
+        self.menu: ui.menu | None = None
+        self.context, self.materials, self.keys, self.key, self.library = context, materials, keys, key, library
+        self.own_constants = own_constants
         part = context.get(keys) or {}
         with ui.element("div").classes("cell").props(f'data-symbol="{SHOWN[key]}"'):
             self.typed = self._typed() if is_own(part) else None
-            self.button = ui.button().props("flat dense no-caps align=left").classes("value")
-            with self.button, ui.menu().props('anchor="bottom left" self="top left"'):
-                self._source(own_constants)
+            self.button = ui.button(on_click=self.open).props("flat dense no-caps align=left").classes("value")
             self.mark = ui.label().classes("mark")
         self.update()
 
@@ -158,7 +156,17 @@ class Cell:
         made = entry(self.context, ENTRIES[self.key], self.place, bare=True)
         return made.props(f'placeholder="{"needed" if self.key in CONSTANTS else "unknown"}"')
 
-    def _source(self, own_constants: Callable[[], None]) -> None:
+    def open(self) -> None:
+        """Open the source, which is drawn when it is asked for first."""
+        if self.menu is None:
+            with self.button:
+                self.menu = ui.menu().props('anchor="bottom left" self="top left"')
+            with self.menu:
+                self._source()
+            self.update()
+            self.menu.open()
+
+    def _source(self) -> None:
         """What the button opens."""
         with ui.element("div").classes("source").props(f'data-source="{".".join(map(str, self.place))}"'):
             self.title = ui.label().classes("table-title")
@@ -168,7 +176,7 @@ class Cell:
                 self.back = ui.button("Give it back to the library", icon="undo", on_click=lambda: own.set_value(""))
                 self.back.props(f'flat dense no-caps data-back="{".".join(map(str, self.place))}"')
             elif self.typed is None:
-                self.back = ui.button("Take these as own constants", icon="edit", on_click=own_constants)
+                self.back = ui.button("Take these as own constants", icon="edit", on_click=self.own_constants)
                 self.back.props("flat dense no-caps")
 
     def update(self) -> None:
@@ -184,16 +192,21 @@ class Cell:
             self.mark.set_text("" if not (inline and value.text) else "own" if plain else f"= {value.text}")
         else:
             self.mark.set_text("own" if value.own else "assumed" if value.assumed else "relaxes" if relaxes else "")
-            if self.own is not None:
-                self.back.set_visibility(value.own)
-                if self.own.value and not value.own:
-                    self.own.set_value("")
         self.mark.set_visibility(bool(self.mark.text))
         self.button.set_text(value.text or ("–" if not material.name else "not known"))
         self.button.props["aria-label"] = f"{value.label}: {value.text or 'not known'}. Press for its source"
         for one in (self.button, self.mark):
             one.classes(add="own" if value.own else "", remove="" if value.own else "own")
         self.button.classes(add="unknown" if not value.text else "", remove="unknown" if value.text else "")
+        if self.menu is not None:
+            self._say(material, value)
+
+    def _say(self, material: Resolved, value: Value) -> None:
+        """Show the source as it is now."""
+        if self.own is not None:
+            self.back.set_visibility(value.own)
+            if self.own.value and not value.own:
+                self.own.set_value("")
         self.title.set_text(f"{value.label} of {material.name}" if material.name else value.label)
         self.said.set_text(said(value))
         self.note.set_text(material.note)

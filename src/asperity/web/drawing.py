@@ -51,8 +51,7 @@ class Piece:
     @property
     def text(self) -> str:
         """Its label."""
-        thick = f", {show(self.thickness, 'm', 4)}" if math.isfinite(self.thickness) else ""
-        return f"{self.name}{thick}{f', {self.missing}' if self.missing else ''}"
+        return f"{self.name}, {show(self.thickness, 'm', 4)}" if math.isfinite(self.thickness) else self.name
 
 
 @dataclass(frozen=True)
@@ -148,6 +147,8 @@ def drawn(stack: Stack, name: str) -> str:
         kind = "base" if number == len(sizes) else "thin" if number in thin else ""
         parts.append(_shape(piece, y, tall, f"{name}-{number}", kind))
         labels.append((y + tall / 2, piece.text, "gap" if piece.state == "open" else ""))
+        if piece.missing:
+            labels.append((y + tall / 2, piece.missing, "soft"))
         if piece.slips:
             parts.append(
                 f'<line x1="{LEFT}" x2="{LEFT + WIDE}" y1="{y + tall:.2f}" y2="{y + tall:.2f}" class="slips"/>'

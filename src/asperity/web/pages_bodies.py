@@ -106,7 +106,10 @@ class BodyForm:
     # Changes.
 
     def changed(self, keys: Keys) -> None:
-        """Drawing and values follow the draft; a relaxation takes the place of Young's modulus."""
+        """Drawing and values follow the draft; a relaxation takes the place of Young's modulus, and
+        names are those of the own file."""
+        if keys[-1] == "materials_file":
+            self.redraw()
         if keys[-1] == "relaxation" and self.context.get(keys):
             for cell in self.cells:
                 if cell.place == (*keys[:-1], "youngs_modulus") and cell.typed is not None:
@@ -263,7 +266,11 @@ class BodyForm:
             ui.label(text).classes("hint end-name") if within else self._swatch()
             with ui.element("div").classes("cell of-material").props('data-symbol="Material"'):
                 material_choice(
-                    self.context, keys, self.library(), lambda way: self.put_part(keys, self._with_way(keys, way))
+                    self.context,
+                    self.resolving,
+                    keys,
+                    self.library(),
+                    lambda way: self.put_part(keys, self._with_way(keys, way)),
                 )
             with ui.element("div").classes("cell").props(f'data-symbol="{"" if within else "Thickness"}"'):
                 thickness()
@@ -273,6 +280,8 @@ class BodyForm:
                 for key in SHOWN:
                     own = lambda: self.put_part(keys, self._with_way(keys, OWN))  # noqa: E731
                     self.cells.append(Cell(self.context, self.resolving, keys, key, self.library, own))
+            if part.get("rigid"):
+                return
             details = self._actions(keys, moves)
         leave = frozenset({"kind", "thickness", "material", "rigid", "layers", "base", "materials_file", *SHOWN})
         if not is_own(part):

@@ -18,7 +18,7 @@ from ..io.schemas.bodies import BESIDE, CONSTANTS, MaterialTable, base_from_text
 from ..run.build import build_material
 from ..run.document import validated
 from ..solids.elastic import Elastic
-from ..solids.library import MaterialRecord
+from ..solids.library import MaterialRecord, materials
 
 SHOWN = {"youngs_modulus": "E", "poisson_ratio": "ν", "hardness": "H", "yield_stress": "Y"}
 """Constants that every row shows, with their symbols."""
@@ -70,11 +70,14 @@ class Resolved:
         Its constants by key, those of a row first.
     note
         Condition or caveat of the library.
+    record
+        What the library knows of it; None for own constants.
     """
 
     name: str
     values: Mapping[str, Value]
     note: str = ""
+    record: MaterialRecord | None = None
 
     @property
     def identity(self) -> str:
@@ -93,6 +96,16 @@ class Materials:
 
     folder: Path
     found: dict[tuple[str, str | None], Resolved] = field(default_factory=dict)
+    lists: dict[str | None, tuple[str, ...]] = field(default_factory=dict)
+
+    def names(self, library: str | None) -> tuple[str, ...]:
+        """Names of the library, with those of the own file ``library`` if it can be read."""
+        if library not in self.lists:
+            try:
+                self.lists[library] = tuple(record.name for record in materials(library))
+            except AsperityError:
+                self.lists[library] = tuple(record.name for record in materials())
+        return self.lists[library]
 
     def of(self, part: Any, library: str | None) -> Resolved:
         """The material of the table ``part`` of a draft, which may be incomplete, with the own
@@ -111,7 +124,7 @@ def resolved(part: Mapping[str, Any], library: str | None, folder: Path) -> Reso
     named = part.get("name") or (part.get("material") if record is None else record.name)
     name = str(named or ("viscoelastic" if part.get("relaxation") else "own material" if is_own(part) else ""))
     values = {key: _value(key, part, record, made) for key in (*SHOWN, *(key for key in BESIDE if key not in SHOWN))}
-    return Resolved(name, values, record.note if record else "")
+    return Resolved(name, values, record.note if record else "", record)
 
 
 def is_own(part: Mapping[str, Any]) -> bool:
