@@ -40,6 +40,7 @@ QUICK = (
     "gold_film.py --peers",
     "motion.py --cases 100",
     "whole_wait.py --rounds 2",
+    "viewer.py",
 )
 """Scripts and their options, in the order of README.md."""
 
@@ -67,6 +68,7 @@ FULL = (
     "gold_film.py",
     "motion.py",
     "whole_wait.py",
+    "viewer.py",
 )
 
 

@@ -179,7 +179,7 @@ class _Explored:
         at = f" at {shown['at']}" if shown["at"] else ""
         drawn = False
 
-        def opened(event: events.ValueChangeEventArguments) -> None:
+        def opened(event: events.ValueChangeEventArguments[Any]) -> None:
             nonlocal drawn
             if event.value and not drawn:
                 drawn = True
