@@ -41,6 +41,7 @@ QUICK = (
     "motion.py --cases 100",
     "whole_wait.py --rounds 2",
     "explore.py",
+    "viewer.py",
 )
 """Scripts and their options, in the order of README.md."""
 
@@ -69,6 +70,7 @@ FULL = (
     "motion.py",
     "whole_wait.py",
     "explore.py --sizes 512 1024 2048",
+    "viewer.py",
 )
 
 

@@ -67,8 +67,8 @@ def violations(page: Any, within: str = "html") -> list[str]:
     """Rule, place and reason of everything that axe-core finds ``within`` an element."""
     page.evaluate(AXE.read_text(encoding="utf-8"))
     found = page.evaluate(
-        "([within, rules]) => axe.run(within, rules).then((all) => all.violations.flatMap((rule) => rule.nodes.map((node) =>"
-        " `${rule.id}: ${node.html.slice(0, 200)} ${node.failureSummary}`)))",
+        "([within, rules]) => axe.run(within, rules).then((all) => all.violations.flatMap((rule) =>"
+        " rule.nodes.map((node) => `${rule.id}: ${node.html.slice(0, 200)} ${node.failureSummary}`)))",
         [
             within,
             {

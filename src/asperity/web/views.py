@@ -223,7 +223,7 @@ def _words(outcome: Outcome) -> dict[str, Any]:
         "points": list(result.problem.grid.shape),
         "cell": list(result.problem.grid.spacing),
         "headline": [list(row) for row in given.headline],
-        "numbers": [[name, *_finite(np.array([float(getattr(result, name))]))] for name in HEADLINE],
+        "numbers": [[name, *_finite(np.array([getattr(result, name)], float))] for name in HEADLINE],
         "results": [list(row) for row in result_rows(result, given.doubted)],
         "certificate": [list(row) for row in certificate_rows(result)],
         "parts": [

@@ -5,6 +5,7 @@
 
    AsperityViewer.create(element, scene, options)  -> Viewer, shown in the element
      layout: "grid" (by default), the chosen maps side by side; "one", one map large, all others as small pictures beside it
+     above: points of the screen that a large map leaves to what stands around it
      centred: whether a spot that is pressed is brought into view, enlarged
    AsperityViewer.start(document)         -> mounts what a page declares: [data-viewer] and figures with [data-curves] */
 (function () {
@@ -914,7 +915,7 @@ class Viewer {
     for (const note of notes) make("p", box, { class: "av-note" }, note);
   }
   /* Points of the screen that a map is tall at most. */
-  get tallest() { return this.one ? Math.min(Math.max(window.innerHeight - 490, 260), 700) : 460; }
+  get tallest() { return this.one ? Math.min(Math.max(window.innerHeight - (this.options.above || 490), 260), 700) : 460; }
   emit(kind, detail) { this.element.dispatchEvent(new CustomEvent(`viewer-${kind}`, { bubbles: true, detail: { viewer: this, ...detail } })); }
 
   watch() {

@@ -30,7 +30,7 @@ async function mount(area) {
     for (const map of scene.maps) for (const array of map.arrays) if (array.url) array.url = `${address}/${encodeURIComponent(array.url)}`;
     if (area.viewer) area.viewer.stop();
     area.textContent = "";
-    const viewer = area.viewer = AsperityViewer.create(area, scene, { layout: "one", centred: true });
+    const viewer = area.viewer = AsperityViewer.create(area, scene, { layout: "one", centred: true, above: area.closest(".beside") ? 560 : 490 });
     last.set(area.id, viewer);
     if (before) goOn(viewer, before);
     await viewer.ready;
@@ -275,7 +275,7 @@ function show([first], [panel], grid, found, rasters) {
     unit: suited(panel.map.unit, most), colours: "difference", range: [-most, most], log: false, decades: 0, arrays: [array] };
   const scene = { ...first.scene, cell: grid.cell, line: [...first.line], palettes: { difference: difference.palette }, maps: [map], steps: null, depths: null, below: null, sections: [], spots: null, notes: [] };
   if (difference.viewer) difference.viewer.stop();
-  difference.viewer = AsperityViewer.create(difference.map, scene, { layout: "one" });
+  difference.viewer = AsperityViewer.create(difference.map, scene, { layout: "one", above: 560 });
   follow(difference.viewer, () => { difference.viewer.lineShown = first.lineShown; difference.viewer.setView(...first.centre, first.zoom); });
   difference.map.viewer = difference.viewer;
   difference.viewer.ready.then(() => { difference.map.dataset.of = panel.map.name; });
@@ -283,7 +283,8 @@ function show([first], [panel], grid, found, rasters) {
 
 function said(viewers, panels, rasters, grid, found) {
   const number = (value) => difference.viewer.panels[0].quantity(value, Math.max(2 * Math.abs(found.largest) / 65534, (rasters[0].step + rasters[1].step) / 2), Math.abs(value));
-  const told = (value) => { const unit = suited(panels[0].map.unit, Math.abs(value)); return words.withUnit(words.short(Number((value / unit.factor).toPrecision(3))), unit.symbol); };
+  const known = (rasters[0].step + rasters[1].step) / 2 / Math.sqrt(Math.max(found.count, 1)); // of a mean of that many rounded values
+  const told = (value) => { if (Math.abs(value) < known) return "0"; const unit = suited(panels[0].map.unit, Math.abs(value)); return words.withUnit(words.short(Number((value / unit.factor).toPrecision(3))), unit.symbol); };
   const at = viewers.map((one, k) => panels[k].map.along === "steps" ? `${label(k)} at step ${one.scene.steps.texts[one.position.steps]}` : label(k));
   const lines = [`${panels[0].map.title}: ${at[0]}, minus ${at[1]}.`];
   if (!found.count) return [...lines, "No point has a value in both."];
