@@ -6,6 +6,7 @@ They suit the size of the surface at hand; what a person has typed goes before t
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -265,13 +266,15 @@ class Starting:
     """Fills tables of surfaces of a ``session`` that a person chooses in a form.
 
     ``files`` tells the files with heights, ``shown`` the answer to what is shown of the surface of
-    the page, whose size need not be asked for again.
+    the page, whose size need not be asked for again. Tables are filled in ``turn``, so that they
+    stand as they were chosen.
     """
 
     session: Session
     files: Callable[[], Sequence[str]]
     shown: Callable[[], Mapping[str, Any]] = dict
     left: dict[tuple[Keys, str], dict[str, Any]] = field(default_factory=dict)
+    turn: asyncio.Lock = field(default_factory=asyncio.Lock)
 
     def chosen(
         self,

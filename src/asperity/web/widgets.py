@@ -226,9 +226,12 @@ def listed(
 
     async def add(word: str) -> None:
         new = {tag: word} if tag and len(tables) > 1 else {}
-        if context.fills is not None:
+        if context.fills is None:
+            put([*items(), new])
+            return
+        async with context.fills.turn:
             new |= starting(tables[word], await context.fills.extent(keys))
-        put([*items(), new])
+            put([*items(), new])
 
     def moved(number: int, by: int) -> None:
         new = items()
@@ -261,14 +264,14 @@ def listed(
                 else:
                     context.places.slot((*keys, number))
                     form(context, model, (*keys, number), frozenset({tag}))
-        with ui.row().classes("adders"):
-            for word in tables:
-                ui.button(
-                    word.replace("_", " ") or "add",
-                    icon="add",
-                    on_click=lambda w=word: add(w),
-                ).props(f'outline dense no-caps size=sm data-add="{word or item.name}"')
 
     if titled:
         ui.label(item.label).classes("table-title")
     inside()
+    with ui.row().classes("adders"):
+        for word in tables:
+            ui.button(
+                word.replace("_", " ") or "add",
+                icon="add",
+                on_click=lambda w=word: add(w),
+            ).props(f'outline dense no-caps size=sm data-add="{word or item.name}"')
