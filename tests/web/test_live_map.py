@@ -70,10 +70,15 @@ def test_generators_and_steps_show_a_map_with_nothing_typed(page: Any) -> None:
     arrived(page, "counter_surface")
     go(page, "prepare")
     told = arrived(page, "after")
-    for step in ("crop", "filter", "tip limit", "resample", "slice"):
+    for number, step in enumerate(("crop", "filter", "tip limit", "resample", "slice"), start=1):
         page.click(f'[data-add="{step.replace(" ", "_")}"]')
-        told = changed(page, "after", told) if step != "tip limit" else arrived(page, "after")
+        page.wait_for_selector(f"text={number}. {step}")
+        told = arrived(page, "after")
     assert "64 × 1 points" in told
+    page.click('[data-add="level"]')  # one after the other, however fast they are pressed
+    page.click('[data-add="resample"]')
+    page.wait_for_selector("text=7. resample")
+    assert "32 × 1 points" in changed(page, "after", told)
     assert page.locator(".failure").count() == 0
 
 

@@ -166,7 +166,7 @@ def test_what_was_typed_is_there_again(tmp_path: Path) -> None:
 
     def choose(word: str, before: dict[str, Any]) -> dict[str, Any]:
         session.draft.set(("surface",), before)
-        return asyncio.run(fills.chosen(("surface",), tables, "kind", word, before))
+        return fills.chosen(("surface",), tables, "kind", word, before, asyncio.run(fills.extent(("surface",))))
 
     sphere = choose("sphere", {}) | {"radius": "3 um"}
     rough = choose("rough", sphere) | {"size": "20 um x 20 um"}

@@ -6,6 +6,7 @@ They suit the size of the surface at hand; what a person has typed goes before t
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -308,20 +309,27 @@ class Starting:
     """Fills tables of surfaces of a ``session`` that a person chooses in a form.
 
     ``files`` tells the files with heights, ``shown`` the answer to what is shown of the surface of
-    the page, whose size need not be asked for again.
+    the page, whose size need not be asked for again. Tables are filled in ``turn``, so that they
+    stand as they were chosen.
     """
 
     session: Session
     files: Callable[[], Sequence[str]]
     shown: Callable[[], Mapping[str, Any]] = dict
     left: dict[tuple[Keys, str], dict[str, Any]] = field(default_factory=dict)
+    turn: asyncio.Lock = field(default_factory=asyncio.Lock)
 
-    async def chosen(
-        self, keys: Keys, tables: Mapping[str, type[Settings]], tag: str, word: str, before: Mapping[str, Any]
+    def chosen(
+        self,
+        keys: Keys,
+        tables: Mapping[str, type[Settings]],
+        tag: str,
+        word: str,
+        before: Mapping[str, Any],
+        extent: Extent,
     ) -> dict[str, Any]:
-        """Table at ``keys`` when the kind ``word`` is chosen after the table ``before``; what was
-        typed into this kind earlier is there again."""
-        extent = await self.extent(keys)
+        """Table at ``keys`` when the kind ``word`` is chosen after the table ``before``, for a
+        surface of this ``extent``; what was typed into this kind earlier is there again."""
         last = str(before.get(tag))
         if last in tables:
             own = starting(tables[last], extent)
@@ -330,11 +338,6 @@ class Starting:
         if keys == (COUNTER,) and word == "file":
             made.setdefault("mirror", "x")  # as on the command line
         return made
-
-    async def added(self, keys: Keys, tables: Mapping[str, type[Settings]], tag: str, word: str) -> dict[str, Any]:
-        """Table of the kind ``word`` for the end of the list at ``keys``."""
-        named = {tag: word} if tag and len(tables) > 1 else {}
-        return {**named, **starting(tables[word], await self.extent(keys))}
 
     async def extent(self, keys: Keys) -> Extent:
         """Size of the surface to which the table at ``keys`` belongs: as it states, or as it is

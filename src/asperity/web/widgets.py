@@ -19,7 +19,7 @@ from .draft import Keys
 from .forms import Asked, asked_of
 from .places import Places
 from .session import Session
-from .starting import Starting
+from .starting import Starting, starting
 
 
 @dataclass(frozen=True)
@@ -203,13 +203,13 @@ def kinds(
     words = [word for word in tables if not only or word in only]
 
     async def choose(word: str | None) -> None:
+        extent = None if word is None or context.fills is None else await context.fills.extent(keys)
         before = context.get(keys)
         before = before if isinstance(before, dict) else {}
-        if word is None:
-            made = None
-        elif context.fills is not None:
-            made = await context.fills.chosen(keys, tables, tag, word, before)
-        else:
+        made: dict[str, Any] | None = None
+        if word is not None and context.fills is not None and extent is not None:
+            made = context.fills.chosen(keys, tables, tag, word, before, extent)
+        elif word is not None:
             made = {**{k: v for k, v in before.items() if k in tables[word].model_fields}, tag: word}
         context.set(keys, made)
         inside.refresh()
@@ -259,10 +259,13 @@ def listed(
             changed()
 
     async def add(word: str) -> None:
+        new = {tag: word} if tag and len(tables) > 1 else {}
         if context.fills is None:
-            put([*items(), {tag: word} if tag and len(tables) > 1 else {}])
-        else:
-            put([*items(), await context.fills.added(keys, tables, tag, word)])
+            put([*items(), new])
+            return
+        async with context.fills.turn:
+            new |= starting(tables[word], await context.fills.extent(keys))
+            put([*items(), new])
 
     def moved(number: int, by: int) -> None:
         new = items()
@@ -296,14 +299,14 @@ def listed(
                 else:
                     context.places.slot((*keys, number))
                     form(context, model, (*keys, number), frozenset({tag}))
-        with ui.row().classes("adders"):
-            for word in tables:
-                ui.button(
-                    word.replace("_", " ") or "add",
-                    icon="add",
-                    on_click=lambda w=word: add(w),
-                ).props(f'outline dense no-caps size=sm data-add="{word or item.name}"')
 
     if titled:
         ui.label(item.label).classes("table-title")
     inside()
+    with ui.row().classes("adders"):
+        for word in tables:
+            ui.button(
+                word.replace("_", " ") or "add",
+                icon="add",
+                on_click=lambda w=word: add(w),
+            ).props(f'outline dense no-caps size=sm data-add="{word or item.name}"')
