@@ -12,8 +12,10 @@
 "use strict";
 
 const MASKED = { 8: 255, 16: 65535 };
+const pictures = []; // the oldest first
 let counted = 0; // numbers of rasters and of states of colours
-const KEPT = 2.5e7; // points of decoded arrays that are kept
+const KEPT = { grid: 5e7, one: 1.5e8 }; // bytes of decoded arrays that are kept, by layout
+const PICTURES = 48; // coloured pictures that are kept
 const COARSE = 256; // points along a side of what is kept of every step: shown at once, until all of its points are there
 const SMALL = 160; // the same of a small picture
 const CALM = 40; // ms without another step, after which all of its points are asked for
@@ -221,6 +223,8 @@ class Colours {
     for (let y = 0; y < ny; y++) for (let x = 0, from = y * nx, to = (ny - 1 - y) * nx; x < nx; x++) out[to++] = table[q[from++]];
     context.putImageData(image, 0, 0);
     raster.pictures.set(key, { canvas, version: this.version });
+    if (!kept) pictures.push([raster, key]);
+    if (pictures.length > PICTURES) { const [old, which] = pictures.shift(); old.pictures.delete(which); }
     return canvas;
   }
 }
@@ -1002,9 +1006,10 @@ class Viewer {
     const one = { raster: null }, decode = async () => new Raster(array, array.q || numbers(await inflated(array), array.bits, ...array.shape), map.reduce);
     one.promise = decode().then((raster) => { if (map.along && !this.few.has(array)) this.few.set(array, raster.coarse()); return one.raster = raster; });
     this.kept.set(array, one);
-    let points = 0;
-    for (const one of this.kept.keys()) points += one.shape[0] * one.shape[1];
-    for (const one of this.kept.keys()) if (points > KEPT && one !== array) { points -= one.shape[0] * one.shape[1]; this.kept.delete(one); }
+    const size = (one) => one.shape[0] * one.shape[1] * one.bits / 8, most = this.one ? KEPT.one : KEPT.grid;
+    let bytes = 0;
+    for (const one of this.kept.keys()) bytes += size(one);
+    for (const one of this.kept.keys()) if (bytes > most && one !== array) { bytes -= size(one); this.kept.delete(one); }
     return one.promise;
   }
   /* While nothing else happens: the neighbours of a step or depth whole, nearest first, with their colours, and few points of all others, so that the slider finds them. */
