@@ -135,7 +135,7 @@ def main() -> None:
     parser.add_argument("--points", type=int, default=1024)
     parser.add_argument("--steps", type=int, default=40)
     parser.add_argument("--scene", type=Path, help="file that keeps the maps between two runs of this script")
-    parser.add_argument("--settle", type=float, default=10.0, help="time in s before the first event")
+    parser.add_argument("--settle", type=float, default=20.0, help="time in s before the first event")
     add_option(parser)
     given = parser.parse_args()
     from playwright.sync_api import sync_playwright

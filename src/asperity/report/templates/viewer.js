@@ -12,8 +12,10 @@
 "use strict";
 
 const MASKED = { 8: 255, 16: 65535 };
+const pictures = []; // the oldest first
 let counted = 0; // numbers of rasters and of states of colours
-const KEPT = 2.5e7; // points of decoded arrays that are kept
+const KEPT = { grid: 5e7, one: 1.5e8 }; // bytes of decoded arrays that are kept, by layout
+const PICTURES = 48; // coloured pictures that are kept
 const COARSE = 256; // points along a side of what is kept of every step: shown at once, until all of its points are there
 const SMALL = 160; // the same of a small picture
 const CALM = 40; // ms without another step, after which all of its points are asked for
@@ -239,6 +241,8 @@ class Colours {
     for (let y = 0; y < ny; y++) for (let x = 0, from = y * nx, to = (ny - 1 - y) * nx; x < nx; x++) out[to++] = table[q[from++]];
     context.putImageData(image, 0, 0);
     raster.pictures.set(key, { canvas, version: this.version });
+    if (!kept) pictures.push([raster, key]);
+    if (pictures.length > PICTURES) { const [old, which] = pictures.shift(); old.pictures.delete(which); }
     return canvas;
   }
 }
@@ -1020,13 +1024,14 @@ class Viewer {
   /* The raster of an array, decoded once; the least used ones are forgotten but for few of their points. */
   raster(array, map) {
     if (this.kept.has(array)) { const found = this.kept.get(array); this.kept.delete(array); this.kept.set(array, found); return found.promise; }
-    const one = { raster: null }, decode = async () => new Raster(array, array.q || await numbersOf(array), map.reduce), points = (other) => other.shape ? other.shape[0] * other.shape[1] : 0;
+    const one = { raster: null }, decode = async () => new Raster(array, array.q || await numbersOf(array), map.reduce);
     one.promise = decode().then((raster) => { if (map.along && !this.few.has(array)) this.few.set(array, raster.coarse()); return one.raster = raster; });
     one.promise.catch(() => this.kept.delete(array));
     this.kept.set(array, one);
-    let all = 0;
-    for (const other of this.kept.keys()) all += points(other);
-    for (const other of this.kept.keys()) if (all > KEPT && other !== array) { all -= points(other); this.kept.delete(other); }
+    const size = (other) => other.shape ? other.shape[0] * other.shape[1] * other.bits / 8 : 0, most = this.one ? KEPT.one : KEPT.grid;
+    let bytes = 0;
+    for (const other of this.kept.keys()) bytes += size(other);
+    for (const other of this.kept.keys()) if (bytes > most && other !== array) { bytes -= size(other); this.kept.delete(other); }
     return one.promise;
   }
   /* While nothing else happens: the neighbours of a step or depth whole, nearest first, with their colours, and few points of all others, so that the slider finds them. */
