@@ -21,6 +21,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "indentation": "independent keyword-only choices of the user, each with a default",
         "Scan.__init__": "independent keyword-only facts of a scan and its instrument, each with a default",
         "Indentation.of": "the same choices as those of the function",
+        "Preview.__init__": "a map on a page, and keyword-only tools and places that it may have",
         "Profile.__init__": "independent keyword-only facts of a line scan, each with a default",
         "StressPlanes.__init__": (
             "independent keyword-only choices of the user, and the stress that a result knows beside its tractions"

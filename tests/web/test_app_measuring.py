@@ -133,8 +133,9 @@ def test_a_profile_with_cursors_on_an_inclined_plane(page: Any, plane: Path, tmp
     surface that the map thins out; ends and cursors move by mouse, keyboard and numbers."""
     surface_with(page, plane)
     go(page, "prepare")
-    for _ in range(2):
+    for left in ("2. fill", "1. fill"):
         page.click(".item button[aria-label=remove] >> nth=0")
+        page.wait_for_selector(f"text={left}", state="detached")
     page.wait_for_selector("text=every 3th point")
     go(page, "surface")
     page.wait_for_selector("text=every 3th point")
@@ -305,8 +306,10 @@ def test_a_line_scan_has_its_cursors_on_the_curve(page: Any, tmp_path: Path) -> 
     page.wait_for_selector('input[data-key="surface.lateral_unit"]', timeout=LONG)
     fill(page, "surface.lateral_unit", "um")
     fill(page, "surface.height_unit", "nm")
+    page.wait_for_selector(".measured[data-kind=curve] .js-plotly-plot", timeout=LONG)
     go(page, "prepare")
     page.click(".item button[aria-label=remove] >> nth=0")  # the line that is levelled
+    page.wait_for_selector("text=2. fill", state="detached")
     go(page, "surface")
     page.wait_for_selector(".measured[data-kind=curve] .js-plotly-plot", timeout=LONG)
     page.click('[data-tool="line"]')
@@ -319,9 +322,9 @@ def test_a_line_scan_has_its_cursors_on_the_curve(page: Any, tmp_path: Path) -> 
     page.click('[data-tool="range"]')
     drag(page, "map-surface", (0.4, 0.5), (0.6, 0.5))
     page.wait_for_selector("[data-region='rectangle 1']")
-    region = document(page)["surface"]["prepare"][0]["regions"][0]
-    assert set(region) == {"kind", "x"}
-    page.wait_for_selector("text=points missing")
+    mask, after = document(page)["surface"]["prepare"]
+    assert set(mask["regions"][0]) == {"kind", "x"}
+    assert after["step"] == "fill"
 
 
 @pytest.mark.slow

@@ -218,7 +218,11 @@ def test_the_difference_is_before_less_after_exactly(tmp_path: Path) -> None:
     np.testing.assert_array_equal(held["removed"], held["before"] - held["after"])
     deviation = held["removed"] - held["removed"].mean()
     rms = shown(float(np.sqrt(np.mean(deviation**2))), "m", 4)
-    assert rms in found["words"]
+    assert f"rms {rms}" in found["words"]
+    wrong = [FILTER[0], {"step": "filter", "short": "1 nm"}]
+    assert "error" in preview(tmp_path, prepare=wrong, steps=2, since=1, show="after")
+    assert "error" not in preview(tmp_path, prepare=wrong, steps=2, since=1, show="before")
+    np.testing.assert_array_equal(np.load(tmp_path / "a.npy"), held["before"])
     first = preview(tmp_path, prepare=FILTER, steps=1, since=0, show="after")
     assert first["Sq"] > 0.0
     np.testing.assert_array_equal(np.load(tmp_path / "a.npy"), held["before"])

@@ -93,7 +93,7 @@ def profile_curves(curves: list[tuple[str, Any, Any]], extent: float) -> dict[st
                 "name": name,
                 "x": packed(np.asarray(x) / x_scale),
                 "y": packed(np.asarray(z) / z_scale),
-                "line": {"color": COLOURS[0] if number == 0 else GREY, "width": 1.6 if number == 0 else 1},
+                "line": {"color": "#1f83c4" if number == 0 else GREY, "width": 1.8 if number == 0 else 1},
                 "hovertemplate": f"%{{x:.4g}} {x_unit}: %{{y:.4g}} {z_unit}<extra>{name}</extra>",
             }
             for number, (name, x, z) in reversed(list(enumerate(curves)))
@@ -101,7 +101,7 @@ def profile_curves(curves: list[tuple[str, Any, Any]], extent: float) -> dict[st
         "layout": layout(
             xaxis=axis(f"distance / {x_unit}", range=[0.0, extent / x_scale]),
             yaxis=axis(f"height / {z_unit}"),
-            margin={"l": 60, "r": 12, "t": 30 if len(curves) == 1 else 50, "b": 44},
+            margin={"l": 60, "r": 12, "t": 30 if len(curves) == 1 else 62, "b": 44},
             showlegend=len(curves) > 1,
             legend={"orientation": "h", "y": 1.0, "yref": "container", "yanchor": "top", "x": 0.0},
         ),

@@ -173,7 +173,7 @@ class Preview:
             with self.picture.frame(kind):
                 self._plot = ui.plotly(self._figure(title)).classes("map")
                 self._plot.props('role="figure" aria-label="map of heights"').on(
-                    "plotly_relayout", self._moved, list(AXES)
+                    "plotly_relayout", self._moved, [*AXES, WHOLE]
                 )
         elif self.stage is not None:
             ui.label(title).classes("table-title")
@@ -243,7 +243,9 @@ class Preview:
 
     def _moved(self, event: events.GenericEventArguments) -> None:
         found = [event.args.get(name) for name in AXES]
-        if all(isinstance(value, int | float) for value in found):
+        if event.args.get(WHOLE):
+            self.view = None
+        elif all(isinstance(value, int | float) for value in found):
             _, scale = maps.scaled(max(self.answer["size"]))
             x0, x1, y0, y1 = (float(value) * scale for value in found)
             lx, ly = self.answer["size"]
@@ -252,6 +254,9 @@ class Preview:
 
 AXES = ("xaxis.range[0]", "xaxis.range[1]", "yaxis.range[0]", "yaxis.range[1]")
 """What Plotly reports of a part that was chosen with the mouse."""
+
+WHOLE = "xaxis.autorange"
+"""The same of the whole picture."""
 
 
 def surface_page(key: str, session: Session) -> None:

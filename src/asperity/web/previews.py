@@ -4,7 +4,7 @@ steps, after them, or what they remove."""
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -76,11 +76,11 @@ def stages(table: Any, folder: Path, first: int, last: int) -> Stages:
     """The surface of the checked ``table`` after the ``first`` and after the ``last`` of its steps,
     counted from 1; relative paths start at ``folder``."""
     before = after = built(table, folder, first)
-    cutoffs: dict[str, float] = {}
+    found: dict[str, float] = {}
     for number in range(first, last):
-        cutoffs |= _cutoffs(after, table.prepare[number])
+        found |= cutoffs(after, [table.prepare[number]])
         after = _prepared(after, table, number)
-    return Stages(before, after, cutoffs)
+    return Stages(before, after, found)
 
 
 def built(table: Any, folder: Path, steps: int | None = None) -> Surface:
@@ -100,16 +100,18 @@ def _prepared(surface: Surface, table: Any, number: int) -> Surface:
         raise
 
 
-def _cutoffs(surface: Surface, step: Any) -> dict[str, float]:
-    """Cut-off wavelengths in m of a ``step`` on ``surface``, if it is a filter."""
-    given = step.given()
-    if step.step == "tip_limit":
-        found = reliability_cutoff(surface, given["radius"])
-        return {"tip": found} if 0.0 < found < math.inf else {}
-    if step.step != "filter":
-        return {}
+def cutoffs(surface: Surface, steps: Sequence[Any]) -> dict[str, float]:
+    """Cut-off wavelengths in m of the filters among ``steps``, by names; that of a tip is the one
+    on this ``surface``."""
+    found: dict[str, float] = {}
     names = {"short": "short", "short_y": "short, along y", "long": "long", "long_y": "long, along y"}
-    return {name: given[key] for key, name in names.items() if key in given}
+    for step in steps:
+        given = step.given()
+        if step.step == "filter":
+            found |= {name: given[key] for key, name in names.items() if key in given}
+        elif step.step == "tip_limit" and 0.0 < (reached := reliability_cutoff(surface, given["radius"])) < math.inf:
+            found["tip"] = reached
+    return found
 
 
 def thinned(heights: Any, most: int | None = None) -> tuple[Any, int]:

@@ -49,7 +49,7 @@ from ..surfaces.read import channels
 from ..surfaces.scans import Scans
 from ..surfaces.surface import Surface
 from .draft import Keys, place_in
-from .previews import Stages, built, kept, stages, thinned
+from .previews import built, cutoffs, kept, stages, thinned
 from .progress import Reported, Watch
 from .views import Views, theory_curves
 
@@ -112,20 +112,21 @@ def surface(task: Task) -> dict[str, Any]:
     With ``since``, the number of steps before those that are looked at, also what these do, and
     instead of the surface after them that before, or the heights removed, as ``show`` says.
     """
-    since, out = task.get("since"), Path(task["out"])
-    try:
+    since, out, told = task.get("since"), Path(task["out"]), dict[str, Any]()
+    shown: Surface | None
+    if since is None:
+        shown = _built(task)
+    elif task["show"] == "before":  # it is there, whatever is wrong with what comes after
+        shown = _built({**task, "steps": since})
+        with contextlib.suppress(AsperityError):
+            told = {"cutoffs": cutoffs(shown, _table(task).prepare[since:])}
+    else:
         table = _table(task)
-        count = len(table.prepare)
-        found = stages(table, Path(task["folder"]), count if since is None else min(since, count), count)
-        told = {} if since is None else {"words": found.words(), "cutoffs": dict(found.cutoffs)}
-    except AsperityError as error:
-        if task.get("show") != "before":
-            raise
-        before = _built({**task, "steps": since})  # it is there, whatever is wrong with what comes after
-        found, told = Stages(before, before), {"words": prefixed(str(error))}
-    shown = {"before": found.before, "removed": found.removed}.get(task.get("show", ""), found.after)
+        found = stages(table, Path(task["folder"]), since, len(table.prepare))
+        told = {"words": found.words(), "cutoffs": dict(found.cutoffs)}
+        shown = found.removed if task["show"] == "removed" else found.after
     if shown is None:
-        return {"nothing": found.words(), **told}
+        return {"nothing": told["words"]}
     heights = np.asarray(shown.heights, dtype=float)
     thin, step = thinned(heights)
     out.write_bytes(np.ascontiguousarray(thin.T).tobytes())
