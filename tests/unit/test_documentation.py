@@ -163,13 +163,13 @@ def test_the_examples_of_preparation(scan, capsys):
     exec(compile(second, "second block", "exec"), names)  # noqa: S102 - running the page is the test
     exec(compile(tips, "block of tips", "exec"), names)  # noqa: S102 - running the page is the test
     assert (names["behind"].heights <= scan.heights).all()
-    words = ["despiked", "line-corrected", "filled", "levelled", "tip-limited", "filtered", "resampled", "periodised"]
+    words = "despiked line-corrected masked filled levelled tip-limited filtered resampled periodised".split()
     assert [line.split(":")[0] for line in capsys.readouterr().out.splitlines()] == words
     assert names["problem"].surface.dx == pytest.approx(scan.dx)
     (text,) = blocks(ROOT / "docs/how-to/prepare.md", "toml")
     table = 'version = 1\n[surface]\nkind = "file"\npath = "a.di"\n' + text
     rest = '\n[body]\nmaterial = "DLC"\n[control]\nmean_pressure = "1 MPa"\n'
-    assert len(loads(table + rest).surface.prepare) == 8
+    assert len(loads(table + rest).surface.prepare) == 9
 
 
 def test_the_example_of_statistical_theories(capsys):
