@@ -208,7 +208,7 @@ def test_dark_or_light_is_kept_and_axes_are_legible_in_both(app: AppServer, open
         page.evaluate("scrollTo(0, 0)")
         page.click("[aria-label='dark or light']")
         page.click(f"[data-look={scheme}]")
-        page.wait_for_function(f"{is_dark} === {str(scheme == 'dark').lower()}")
+        page.wait_for_function(f"{is_dark} === {str(scheme == 'dark').lower()}", timeout=LONG)
         page.wait_for_timeout(800)
         behind = page.evaluate("getComputedStyle(document.body).backgroundColor")
         look = page.evaluate("document.querySelector('[data-scene]').viewer.look")
@@ -237,7 +237,7 @@ def test_dark_or_light_is_kept_and_axes_are_legible_in_both(app: AppServer, open
     page.click("[aria-label='dark or light']")
     assert page.locator("[data-look=dark]").get_attribute("aria-checked") == "true"
     page.click("[data-look=system]")
-    page.wait_for_function(f"!{is_dark}")
+    page.wait_for_function(f"!{is_dark}", timeout=LONG)
     page.reload()
     page.wait_for_selector("[data-ready]", timeout=LONG)
     assert not page.evaluate(is_dark)

@@ -34,7 +34,7 @@ def frame(place: Place, key: str, session: Session, step: str) -> Iterator[None]
     """Header and steps of the page ``step``; its content is drawn inside."""
     title, _ = STEPS[step]
     ui.page_title(f"{title} – asperity")
-    look()
+    dark = look()
     drawer = ui.left_drawer(value=False, bordered=True).classes("steps").props("width=210 breakpoint=900 show-if-above")
     with drawer, ui.element("nav").props('aria-label="steps"'):
         for number, (name, (text, icon)) in enumerate(STEPS.items(), start=1):
@@ -58,7 +58,7 @@ def frame(place: Place, key: str, session: Session, step: str) -> Iterator[None]
         ).tooltip("redo")
         _copies(session)
         _keeping(place, session)
-        _colours_of_the_page()
+        _colours_of_the_page(dark)
     main_named(title)
     with ui.element("div").classes(f"content page-{step}"):
         ui.html(f"<h1>{title}</h1>", sanitize=False)
@@ -81,15 +81,16 @@ def root_path() -> str:
     return str(ui.context.client.request.headers.get(FORWARDED.decode(), ""))
 
 
-def look() -> None:
-    """Style and scripts of every page, dark or light as it was chosen."""
-    ui.dark_mode(value=LOOKS[_chosen_look()][1])
+def look() -> ui.dark_mode:
+    """Style and scripts of every page, dark or light as it was chosen; gives what changes that."""
+    dark = ui.dark_mode(value=LOOKS[_chosen_look()][1])
     ui.colors(primary="#005a9c", positive="#1b6e3c", negative="#a31515", warning="#8a5300", info="#005a9c")
     root = root_path()
     for name in ("viewer.css", "app.css", "problem.css", "measure.css"):
         ui.add_head_html(f'<link rel="stylesheet" href="{root}/static/{name}">')
     for name in ("viewer.js", "app.js", "explore.js", "measure.js"):
         ui.add_head_html(f'<script defer src="{root}/static/{name}"></script>')
+    return dark
 
 
 LOOKS = MappingProxyType({"system": ("as the system", None), "light": ("light", False), "dark": ("dark", True)})
@@ -112,14 +113,14 @@ def _chosen_look() -> str:
     return found if found in LOOKS else "system"
 
 
-def _colours_of_the_page() -> None:
+def _colours_of_the_page(dark: ui.dark_mode) -> None:
     """The menu that chooses dark or light."""
     root = ui.context.client.request.headers.get(FORWARDED.decode(), "")
 
     def choose(name: str) -> None:
         kept = f"{LOOK_COOKIE}={name}; path={root}/; max-age=31536000; samesite=strict"
         ui.run_javascript(f"document.cookie = {kept!r}")
-        ui.dark_mode(value=LOOKS[name][1])
+        dark.set_value(LOOKS[name][1])
         for key, item in items.items():
             item.props(f'aria-checked="{str(key == name).lower()}"')
 
