@@ -18,7 +18,7 @@ from scipy.special import erf
 
 import asperity as asp
 from asperity import generate
-from asperity.plots.comparison import LABEL_ROOM, MUTED, SIZE, plot_comparison_area
+from asperity.plots.comparison import LABEL_ROOM, NEAREST, OTHERS, SIZE, nearest, plot_comparison_area
 from asperity.report.comparison import comparison_sentence
 from asperity.theories import Limit, Prediction, Westergaard, theory
 from asperity.theories.protocol import prediction
@@ -41,23 +41,33 @@ def compared(film: asp.Surface) -> asp.studies.Comparison:
     return asp.compare(film, STEEL, np.array([0.08, 0.01, 0.02, 0.04]) * 0.1 * E_STAR)
 
 
-def test_curves_are_named_at_their_ends_apart_and_never_alike(compared: asp.studies.Comparison) -> None:
+def test_the_nearest_curves_are_named_at_their_ends_apart_and_never_alike(compared: asp.studies.Comparison) -> None:
     ax = Figure(figsize=SIZE).add_subplot()
     data = compared.dataset
     plot_comparison_area(data, ax)
-    texts = [text.get_text() for text in ax.texts]
-    assert sorted(texts) == sorted(
-        ["numerical", *(n if n in texts else f"{n}: nowhere valid" for n in data["theory"].values)]
-    )
+    named = nearest(data)
+    assert len(named) == NEAREST
+    assert sorted(text.get_text() for text in ax.texts) == sorted(["numerical", *named])
     assert ax.get_legend() is None
     places = sorted(text.get_position()[1] for text in ax.texts)
     assert np.diff(places).min() >= LABEL_ROOM - 1e-9
     looks = [
-        (line.get_color(), line.get_linestyle()) for line in ax.lines if line.get_color() not in (MUTED, "#000000")
+        (line.get_color(), line.get_linestyle()) for line in ax.lines if line.get_color() not in (OTHERS, "#000000")
     ]
-    assert len(looks) == len(set(looks)) == data.sizes["theory"]
-    outside = [np.asarray(line.get_ydata()) for line in ax.lines if line.get_color() != MUTED]
-    assert any(np.isnan(values).any() for values in outside)  # beyond its limits a theory is grey only
+    assert len(looks) == len(set(looks)) == NEAREST
+
+
+def test_curves_end_at_the_limits_of_their_theories(compared: asp.studies.Comparison) -> None:
+    ax = Figure(figsize=SIZE).add_subplot()
+    data = compared.dataset
+    plot_comparison_area(data, ax)
+    valid, area = data["area_fraction_valid"].values, data["area_fraction"].values
+    assert not valid.all(), "some theories are beyond their limits"
+    within = [np.where(holds & (values <= 1.0), values, np.nan) for values, holds in zip(area, valid, strict=True)]
+    lines = [np.asarray(line.get_ydata(), dtype=float) for line in ax.lines if line.get_color() != "#000000"]
+    assert len(lines) > NEAREST
+    for drawn in lines:
+        assert any(np.array_equal(drawn, values, equal_nan=True) for values in within)
 
 
 def test_a_comparison_draws_itself(compared: asp.studies.Comparison, film: asp.Surface) -> None:
