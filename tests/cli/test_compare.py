@@ -38,7 +38,7 @@ def test_a_comparison_is_printed_and_written(run: Runner, matrix: Path, tmp_path
     for text in ("jackson-green", "Yang"):
         assert text in page
     assert len(re.findall(r'src="data:image/png', page)) == 5
-    assert not re.search(r'(src|href)="(?!data:)', page)
+    assert not re.search(r'(src|href)="(?!data:|#)', page)
     document = load_document(out / "problem.toml")
     assert document.control.mean_pressure == pytest.approx(1e8)
 

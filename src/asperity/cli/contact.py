@@ -16,7 +16,7 @@ from ..core.errors import InputError
 from ..core.settings import COMMAND_LINE
 from ..core.values import Flag
 from ..io.atomic import atomic_folder, require_new_files
-from ..run.archive import carried, is_archive, unpack
+from ..run.archive import carried, unpack
 from ..run.build import build, large_grid, stated_points
 from ..run.document import (
     DEMO,
@@ -26,6 +26,7 @@ from ..run.document import (
     built_in,
     checked,
     files_of,
+    is_archive,
     loads,
     read_table,
     relocated,

@@ -19,24 +19,10 @@ from pathlib import Path, PurePosixPath
 from ..core.errors import FileFormatError, OutputError
 from ..core.words import printable
 from ..io.atomic import atomic_file
-from .document import ProblemDocument, dumps, files_named, files_of, read_table, with_paths
-
-PROBLEM = "problem.toml"
-"""The document, at the root of an archive."""
+from .document import PROBLEM, ProblemDocument, dumps, files_named, files_of, read_table, with_paths
 
 LARGEST_DOCUMENT = 2**24
 """Bytes of a document in an archive."""
-
-
-def is_archive(path: str | os.PathLike[str]) -> bool:
-    """Whether the file at ``path`` is an archive of a problem."""
-    if Path(path).suffix.lower() != ".zip" or not zipfile.is_zipfile(path):
-        return False
-    try:
-        with zipfile.ZipFile(path) as archive:
-            return PROBLEM in archive.namelist()
-    except (OSError, zipfile.BadZipFile, NotImplementedError):
-        return False
 
 
 def gathered(

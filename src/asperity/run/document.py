@@ -12,6 +12,7 @@ import json
 import os
 import re
 import tomllib
+import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from importlib import resources
@@ -138,6 +139,21 @@ def built_in(name: str) -> str:
 def picture(name: str) -> bytes:
     """Picture (PNG) of the result of the example ``name``, of ``EXAMPLES``."""
     return resources.files("asperity").joinpath("data", "examples", f"{name}.png").read_bytes()
+
+
+PROBLEM = "problem.toml"
+"""The document in the folder of a run, and at the root of an archive of a problem."""
+
+
+def is_archive(path: str | os.PathLike[str]) -> bool:
+    """Whether the file at ``path`` is an archive of a problem."""
+    if Path(path).suffix.lower() != ".zip" or not zipfile.is_zipfile(path):
+        return False
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return PROBLEM in archive.namelist()
+    except (OSError, zipfile.BadZipFile, NotImplementedError):
+        return False
 
 
 def read_table(path: str | os.PathLike[str], what: str = "problem document") -> dict[str, Any]:

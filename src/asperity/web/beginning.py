@@ -10,8 +10,8 @@ from types import MappingProxyType
 from typing import Any
 
 from ..core.errors import InputError
-from ..run.archive import is_archive, unpack
-from ..run.document import DEMO, built_in, files_named, read_table
+from ..run.archive import unpack
+from ..run.document import DEMO, built_in, files_named, is_archive, read_table
 from .draft import relabelled
 from .session import Session
 

@@ -12,8 +12,7 @@ from nicegui import events, run, ui
 from ..core.errors import AsperityError
 from ..core.units import show
 from ..io.schemas.surfaces import FileSurface
-from ..run.archive import is_archive
-from ..run.document import document_model
+from ..run.document import document_model, is_archive
 from . import maps
 from .beginning import measured, open_document, scanned
 from .draft import Keys

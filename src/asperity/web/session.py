@@ -18,8 +18,8 @@ from typing import Any, Literal
 from ..core.errors import InputError, OutputError
 from ..io.atomic import atomic_file
 from ..report.folder import ALL_NAMES
-from ..run.archive import PROBLEM, write_archive
-from ..run.document import files_of, load_document
+from ..run.archive import write_archive
+from ..run.document import PROBLEM, files_of, load_document
 from .draft import Draft, relabelled
 from .kept import LOCK, STATE, Held, is_within, label_of, state_in
 from .views import ARRAYS, SCENE

@@ -19,9 +19,9 @@ from asperity.core.errors import FileFormatError
 from asperity.core.grid import Grid
 from asperity.files import save_surface
 from asperity.generate import ExponentialAutocorrelation, gaussian
-from asperity.run.archive import PROBLEM, carried, gathered, is_archive, unpack, write_archive
+from asperity.run.archive import carried, gathered, unpack, write_archive
 from asperity.run.build import build
-from asperity.run.document import checked, files_named, files_of, load_document, with_files
+from asperity.run.document import PROBLEM, checked, files_named, files_of, is_archive, load_document, with_files
 
 ARCHIVE = "archive of a problem"
 
