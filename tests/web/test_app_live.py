@@ -77,17 +77,27 @@ class Slow(Part):
 VIEWER = "document.querySelector('[data-scene]').viewer"
 
 
-@pytest.fixture(scope="module")
-def app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[AppServer]:
-    """The application on a path of 40 loads with an analysis that takes seconds."""
-    folder = tmp_path_factory.mktemp("packages")
+def served(folder: Path, problem: str) -> AppServer:
+    """The application on a path of 40 loads with an analysis that takes its time."""
     (folder / "slow_part.py").write_text(PART, encoding="utf-8")
     information = folder / "slow_part-1.0.dist-info"
     information.mkdir()
     (information / "METADATA").write_text("Metadata-Version: 2.1\nName: slow-part\nVersion: 1.0\n", encoding="utf-8")
     (information / "entry_points.txt").write_text("[asperity.parts]\nslow = slow_part:Slow\n", encoding="utf-8")
-    (folder / "problem.toml").write_text(PROBLEM, encoding="utf-8")
-    with AppServer((str(folder / "problem.toml"), "--threads", "1"), packages=folder) as running:
+    (folder / "problem.toml").write_text(problem, encoding="utf-8")
+    return AppServer((str(folder / "problem.toml"), "--threads", "1"), packages=folder)
+
+
+@pytest.fixture(scope="module")
+def app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[AppServer]:
+    with served(tmp_path_factory.mktemp("packages"), PROBLEM) as running:
+        yield running
+
+
+@pytest.fixture
+def endless(tmp_path: Path) -> Iterator[AppServer]:
+    """The same with an analysis that takes an hour."""
+    with served(tmp_path, PROBLEM.replace("seconds = 4", "seconds = 3600")) as running:
         yield running
 
 
@@ -138,9 +148,9 @@ def test_maps_of_the_first_steps_are_explored_while_others_are_solved(
 
 @pytest.mark.slow
 def test_progress_tells_step_and_time_and_a_run_is_cancelled_where_it_is_watched(
-    app: AppServer, open_page: Callable[..., Any]
+    endless: AppServer, open_page: Callable[..., Any]
 ) -> None:
-    page = begun(app, open_page)
+    page = begun(endless, open_page)
     said: list[str] = page.evaluate(
         "new Promise((done) => { const all = []; const timer = setInterval(() => {"
         " const text = document.querySelector('.state'); if (text) all.push(text.textContent);"
