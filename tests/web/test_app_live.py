@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -43,11 +43,12 @@ steps = 40
 [stress]
 
 [slow]
-seconds = 4
+value = 4
 """
 
 PART = '''
 import time
+from pathlib import Path
 from asperity.core.quantity import Quantity
 from asperity.core.settings import Settings, setting
 from asperity.core.values import Positive
@@ -55,49 +56,41 @@ from asperity.parts.part import Found, Part
 
 
 class SlowSettings(Settings):
-    """How long it takes."""
+    """What is found."""
 
-    seconds: Positive = setting(1.0, help="Seconds")
+    value: Positive = setting(1.0, help="Value")
 
 
 class Slow(Part):
-    """An analysis that takes its time."""
+    """An analysis that ends when a file beside this one is there."""
 
     name = table = "slow"
     title = "Slow analysis"
     settings = SlowSettings
-    quantities = (Quantity("slow_time", "1", "seconds that were taken"),)
+    quantities = (Quantity("slow_value", "1", "value that was found"),)
 
     def compute(self, ask, solved):
         with solved.stage("slow analysis"):
-            time.sleep(ask.seconds)
-        return Found({"slow_time": ask.seconds})
+            while not Path(__file__).with_name("go").exists():
+                time.sleep(0.05)
+        return Found({"slow_value": ask.value})
 '''
 
 VIEWER = "document.querySelector('[data-scene]').viewer"
 
 
-def served(folder: Path, problem: str) -> AppServer:
-    """The application on a path of 40 loads with an analysis that takes its time."""
-    (folder / "slow_part.py").write_text(PART, encoding="utf-8")
-    information = folder / "slow_part-1.0.dist-info"
+@pytest.fixture
+def app(tmp_path: Path, request: Any) -> Iterator[AppServer]:
+    """The application on a path of so many loads, 40 by default, with an analysis that ends when it
+    may."""
+    problem = PROBLEM.replace("steps = 40", f"steps = {getattr(request, 'param', 40)}")
+    (tmp_path / "slow_part.py").write_text(PART, encoding="utf-8")
+    information = tmp_path / "slow_part-1.0.dist-info"
     information.mkdir()
     (information / "METADATA").write_text("Metadata-Version: 2.1\nName: slow-part\nVersion: 1.0\n", encoding="utf-8")
     (information / "entry_points.txt").write_text("[asperity.parts]\nslow = slow_part:Slow\n", encoding="utf-8")
-    (folder / "problem.toml").write_text(problem, encoding="utf-8")
-    return AppServer((str(folder / "problem.toml"), "--threads", "1"), packages=folder)
-
-
-@pytest.fixture(scope="module")
-def app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[AppServer]:
-    with served(tmp_path_factory.mktemp("packages"), PROBLEM) as running:
-        yield running
-
-
-@pytest.fixture
-def endless(tmp_path: Path) -> Iterator[AppServer]:
-    """The same with an analysis that takes an hour."""
-    with served(tmp_path, PROBLEM.replace("seconds = 4", "seconds = 3600")) as running:
+    (tmp_path / "problem.toml").write_text(problem, encoding="utf-8")
+    with AppServer((str(tmp_path / "problem.toml"), "--threads", "1"), packages=tmp_path) as running:
         yield running
 
 
@@ -123,6 +116,8 @@ def test_maps_of_the_first_steps_are_explored_while_others_are_solved(
     page.evaluate(f"{VIEWER}.setLine(0.2e-6, 0.3e-6, 1.2e-6, 1.4e-6)")
     page.evaluate(f"{VIEWER}.choose('gap')")
 
+    assert app.packages is not None
+    (app.packages / "go").touch()
     page.wait_for_selector("[data-verdict]", timeout=LONG)
     page.wait_for_function(f"{VIEWER}.scene.steps && {VIEWER}.scene.steps.numbers.length === 40", timeout=LONG)
     page.wait_for_function(f"{VIEWER}.visible.every((panel) => panel.raster)", timeout=LONG)
@@ -147,17 +142,16 @@ def test_maps_of_the_first_steps_are_explored_while_others_are_solved(
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("app", [1000], indirect=True)
 def test_progress_tells_step_and_time_and_a_run_is_cancelled_where_it_is_watched(
-    endless: AppServer, open_page: Callable[..., Any]
+    app: AppServer, open_page: Callable[..., Any]
 ) -> None:
-    page = begun(endless, open_page)
-    said: list[str] = page.evaluate(
-        "new Promise((done) => { const all = []; const timer = setInterval(() => {"
-        " const text = document.querySelector('.state'); if (text) all.push(text.textContent);"
-        " if (document.querySelector('[data-ready]')) { clearInterval(timer); done(all); } }, 20); })"
-    )
-    page.wait_for_selector("text=slow analysis", timeout=LONG)
-    assert any(re.search(r"step \d+ of 40", text) for text in said), said[-1]
+    page = begun(app, open_page)
+    page.wait_for_selector("text=/step [0-9]+ of 1000.* left$/", timeout=LONG)
+    page.wait_for_selector("[data-curve-so-far] .main-svg", timeout=LONG)
+    points = "document.querySelector('[data-curve-so-far] .js-plotly-plot').data[0].x.length"
+    first = page.evaluate(points)
+    page.wait_for_function(f"{points} > {first}", timeout=LONG)
     page.click("text=Cancel")
     page.wait_for_selector("text=/^Cancelled/", timeout=LONG)
     page.wait_for_selector("[data-scene]", state="detached")
