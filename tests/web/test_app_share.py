@@ -77,6 +77,7 @@ def test_downloads_and_the_archive_are_solved_again(scan: Path, open_page: Calla
         scalars = downloaded(page, "scalars (CSV)", away)
         with page.context.expect_page() as opened:
             page.click("text=report >> visible=true")
+        opened.value.wait_for_load_state("load")
         report = opened.value.content()
         private = page.evaluate("document.documentElement.outerHTML")
         opened.value.close()

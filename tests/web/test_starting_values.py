@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping
+from collections.abc import Coroutine, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -151,6 +152,12 @@ def test_what_was_typed_is_kept() -> None:
     assert "rms_height" not in slope, "a spectrum has one amplitude"
 
 
+def awaited(work: Coroutine[Any, Any, Any]) -> Any:
+    """What ``work`` gives, in a thread of its own: a browser may have left a loop in this one."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, work).result()
+
+
 def of(session: Session, names: tuple[str, ...] = ()) -> Starting:
     return Starting(session, lambda: names)
 
@@ -166,7 +173,7 @@ def test_what_was_typed_is_there_again(tmp_path: Path) -> None:
 
     def choose(word: str, before: dict[str, Any]) -> dict[str, Any]:
         session.draft.set(("surface",), before)
-        return fills.chosen(("surface",), tables, "kind", word, before, asyncio.run(fills.extent(("surface",))))
+        return fills.chosen(("surface",), tables, "kind", word, before, awaited(fills.extent(("surface",))))
 
     sphere = choose("sphere", {}) | {"radius": "3 um"}
     rough = choose("rough", sphere) | {"size": "20 um x 20 um"}
@@ -187,7 +194,7 @@ def test_sizes_are_those_of_the_surface_at_hand(tmp_path: Path) -> None:
         await session.helper.end()
         return found
 
-    step, counter = asyncio.run(asked())
+    step, counter = awaited(asked())
     assert step.points == counter.points == (16, 64)
     assert step.sides == pytest.approx((1.6e-6, 6.4e-6))
     session.abandon()
