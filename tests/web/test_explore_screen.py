@@ -49,6 +49,11 @@ def explored(app: AppServer, open_page: Open, *runs: int, **options: Any) -> Any
     chosen = "&beside=".join(names[run] for run in runs)
     page.goto(f"{page.url.rsplit('/', 1)[0]}/explore?run={chosen}")
     page.wait_for_function(f"document.querySelectorAll('[data-ready]').length === {len(runs)}", timeout=LONG)
+    page.wait_for_function(  # planes in the body come last, after which the maps are drawn once more
+        "[...document.querySelectorAll('[data-scene]')].every(({ viewer }) => viewer.panels.every((p) => p.raster) &&"
+        " viewer.panels.some((p) => p.map.name === 'planes'))",
+        timeout=LONG,
+    )
     page.wait_for_timeout(300)
     return page
 

@@ -149,7 +149,7 @@ def application(place: Place) -> Any:
     return app
 
 
-PATIENCE = 20.0
+PATIENCE = 120.0
 """Seconds for which an array is waited for that is not made yet."""
 
 FAVICON = (

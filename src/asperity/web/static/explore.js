@@ -52,7 +52,7 @@ function goOn(viewer, before) {
     if (before.position.steps !== old.first && there >= 0) viewer.position.steps = there;
     viewer.setTexts();
   }
-  viewer.line = [...before.line]; viewer.lineShown = before.lineShown;
+  viewer.line = [...before.line]; viewer.lineShown = before.lineShown; viewer.cursor = before.cursor; viewer.along = before.along;
   viewer.setView(...before.centre, before.zoom);
   if (panelOf(viewer, name)) viewer.ready = Promise.all([viewer.ready, viewer.show([name])]);
 }
