@@ -127,6 +127,13 @@ def until(page: Any, name: str, text: str) -> None:
     )
 
 
+def use(page: Any, tool: str) -> None:
+    """Let the mouse do what ``tool`` is for, and wait until it does."""
+    page.click(f'[data-tool="{tool}"]')
+    page.wait_for_selector(f'[data-tool="{tool}"][aria-pressed=true]')
+    page.wait_for_timeout(300)
+
+
 @pytest.mark.slow
 def test_a_profile_with_cursors_on_an_inclined_plane(page: Any, plane: Path, tmp_path: Path) -> None:
     """Slope and angle are those of the plane whatever the direction, at the full resolution of a
@@ -139,7 +146,7 @@ def test_a_profile_with_cursors_on_an_inclined_plane(page: Any, plane: Path, tmp
     page.wait_for_selector("text=every 3th point")
     go(page, "surface")
     page.wait_for_selector("text=every 3th point")
-    page.click('[data-tool="line"]')
+    use(page, "line")
     found = readings(page)
     angle = math.degrees(math.atan(SLOPE))
     assert found["angle"] == f"{angle:.4g}°"
@@ -195,22 +202,22 @@ def test_regions_are_masked_with_the_mouse(page: Any) -> None:
     what would mask everything is refused."""
     go(page, "surface")
     page.wait_for_selector(".measured .js-plotly-plot", timeout=LONG)
-    page.click('[data-tool="rectangle"]')
+    use(page, "rectangle")
     drag(page, "map-surface", (0.6, 0.6), (0.8, 0.9))
     page.wait_for_selector("[data-region='rectangle 1']")
     page.wait_for_selector("text=points missing")
     pixel = 1.0 / corners(page, "map-surface")["width"]
     assert missing(page) / 256**2 == pytest.approx(0.06, abs=0.5 * (pixel + 1.0 / 256) * 2.0)
-    page.click('[data-tool="ellipse"]')
+    use(page, "ellipse")
     drag(page, "map-surface", (0.1, 0.1), (0.4, 0.4))
     page.wait_for_selector("[data-region='ellipse 2']")
-    page.click('[data-tool="polygon"]')
+    use(page, "polygon")
     box = corners(page, "map-surface")
     for x, y in ((0.1, 0.6), (0.4, 0.6), (0.25, 0.9)):
         page.mouse.click(box["x"] + x * box["width"], box["y"] + (1.0 - y) * box["height"])
     page.keyboard.press("Enter")
     page.wait_for_selector("[data-region='polygon 3']")
-    page.click('[data-tool="freehand"]')
+    use(page, "freehand")
     box = corners(page, "map-surface")
     page.mouse.move(box["x"] + 0.7 * box["width"], box["y"] + 0.7 * box["height"])
     page.mouse.down()
@@ -312,14 +319,14 @@ def test_a_line_scan_has_its_cursors_on_the_curve(page: Any, tmp_path: Path) -> 
     page.wait_for_selector("text=2. fill", state="detached")
     go(page, "surface")
     page.wait_for_selector(".measured[data-kind=curve] .js-plotly-plot", timeout=LONG)
-    page.click('[data-tool="line"]')
+    use(page, "line")
     found = readings(page)
     assert metres(found["Δz"]) == pytest.approx(1e-4 * metres(found["Δx"]), rel=2e-3)
     before = metres(value(page, "a"))
     page.focus('[data-measure="map-surface"] [data-part="cursor-0"]')
     page.keyboard.press("ArrowRight")
     assert moved(page, "a", before) == pytest.approx(0.5e-6, rel=0.05)
-    page.click('[data-tool="range"]')
+    use(page, "range")
     drag(page, "map-surface", (0.4, 0.5), (0.6, 0.5))
     page.wait_for_selector("[data-region='rectangle 1']")
     mask, after = document(page)["surface"]["prepare"]
@@ -333,9 +340,9 @@ def test_the_tools_fit_a_small_screen(app: AppServer, open_page: Callable[..., A
     base_of(page)
     go(page, "surface")
     page.wait_for_selector(".measured .js-plotly-plot", timeout=LONG)
-    page.click('[data-tool="line"]')
+    use(page, "line")
     readings(page)
-    page.click('[data-tool="rectangle"]')
+    use(page, "rectangle")
     drag(page, "map-surface", (0.2, 0.2), (0.5, 0.5))
     page.wait_for_selector("[data-region='rectangle 1']")
     assert page.evaluate("document.documentElement.scrollWidth") <= 420

@@ -252,7 +252,7 @@ def test_the_load_comes_first_and_settings_are_folded(
     page.wait_for_selector('[data-setting="boundary"] .q-item__label--caption:has-text("free")')
     assert page.locator('input[data-key="control.mean_pressure"]').input_value() == "4 MPa"
     page.click('[data-key="control.kind"] >> text=Load path')
-    assert not page.locator('input[data-key="control.mean_pressure"]').count()
+    page.wait_for_selector('input[data-key="control.mean_pressure"]', state="detached")
     fill(page, "control.path.mean_pressure", "50 MPa, 0, 80 MPa")
     page.wait_for_timeout(800)
     found = document(page)
