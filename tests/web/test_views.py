@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -18,9 +19,10 @@ from asperity.parts.part import Solved
 from asperity.plots.maps import contact_kinds, gap_field, pressure_field
 from asperity.report.scene import MASKED
 from asperity.run.build import build
-from asperity.run.document import checked
+from asperity.run.document import checked, dumps
 from asperity.run.execute import Outcome, execute
-from asperity.web import progress
+from asperity.run.stored import save_outcome
+from asperity.web import progress, tasks
 from asperity.web.progress import Watch, reported, time_left
 from asperity.web.views import ARRAYS, SCENE, SHOWN, SPACE, Views, spots_file
 
@@ -151,6 +153,22 @@ def test_what_is_there_is_not_made_again(tmp_path: Path) -> None:
         views.end()
         found.append({file: file.stat().st_mtime_ns for file in (tmp_path / f"run{ARRAYS}").iterdir()})
     assert found[0] == found[1]
+
+
+def test_planes_in_the_body_are_there_when_a_result_is_opened_again(tmp_path: Path) -> None:
+    more = {"control": {"mean_pressure": "60 MPa"}, "stress": {}}
+    document = checked({**TABLE, **more})
+    save_outcome(run(**more), tmp_path / "result.nc", document=dumps(document))
+    answer = tasks.views({"result": str(tmp_path / "result.nc"), "views": str(tmp_path / "run")})
+    assert answer == {}
+
+    def planes() -> list[Any]:
+        return [entry["arrays"] for entry in scene_in(tmp_path)["maps"] if entry["name"] == "planes"]
+
+    end = time.monotonic() + 60.0
+    while not planes() and time.monotonic() < end:
+        time.sleep(0.05)
+    assert len(planes()[0]) > 5
 
 
 def test_what_keeps_an_array_from_being_written_is_raised(tmp_path: Path) -> None:

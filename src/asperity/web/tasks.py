@@ -37,7 +37,7 @@ from ..report.scans import ScansInWords, write_page_of_scans
 from ..run.archive import carried
 from ..run.build import build
 from ..run.document import load_document, loads
-from ..run.execute import analysed, execute
+from ..run.execute import Outcome, analysed, execute
 from ..run.refusals import refusals
 from ..run.stored import load_outcome
 from ..studies.campaign import prepare_study
@@ -327,14 +327,20 @@ def views(task: Task) -> dict[str, Any]:
     if these were not asked for."""
     outcome = load_outcome(task["result"])
     if task.get("stresses"):
-        document = loads(str(document_in(task["result"])))
-        settings: Any = getattr(document, "stress", None) or StressSettings()
-        request = stress_request(settings, getattr(document, "friction"))  # noqa: B009
-        Stress().at_work.check(request, outcome.result.problem)
-        more = analysed(outcome.result, {"stress": request, "yielding": True}, outcome.path)
-        outcome = replace(more, found={**outcome.found, **more.found}, findings=outcome.findings)
-    Views(Path(task["views"])).page_first(outcome)
+        outcome = _stressed(outcome, task)
+    again = "stress" in outcome.found and not task.get("stresses")  # a file keeps no fields at other depths
+    Views(Path(task["views"])).page_first(outcome, lambda: _stressed(outcome, task) if again else outcome)
     return {}
+
+
+def _stressed(outcome: Outcome, task: Task) -> Outcome:
+    """The ``outcome`` in the file ``result`` with stresses in the body, computed now."""
+    document = loads(str(document_in(task["result"])))
+    settings: Any = getattr(document, "stress", None) or StressSettings()
+    request = stress_request(settings, getattr(document, "friction"))  # noqa: B009
+    Stress().at_work.check(request, outcome.result.problem)
+    more = analysed(outcome.result, {"stress": request, "yielding": True}, outcome.path)
+    return replace(more, found={**outcome.found, **more.found}, findings=outcome.findings)
 
 
 @guarded

@@ -106,14 +106,14 @@ class Views:
         if more := list(_planes(outcome)):
             self.maps(outcome.solved, [*outcome.all_figures, *more])
 
-    def page_first(self, outcome: Outcome) -> None:
-        """The ``page`` of an ``outcome``; its ``planes`` follow in their turn, after which nothing
-        more may be asked for."""
+    def page_first(self, outcome: Outcome, whole: Callable[[], Outcome]) -> None:
+        """The ``page`` of an ``outcome``; the ``planes`` of the ``whole`` one follow in their turn,
+        after which nothing more may be asked for."""
         self.page(outcome)
-        self._pool.submit(self._rest, outcome)
+        self._pool.submit(self._rest, whole)
 
-    def _rest(self, outcome: Outcome) -> None:
-        self.planes(outcome)
+    def _rest(self, whole: Callable[[], Outcome]) -> None:
+        self.planes(whole())
         self._pool.shutdown(wait=False)
 
     def _later(self, name: str, work: Callable[[], None]) -> None:
