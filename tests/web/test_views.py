@@ -205,7 +205,7 @@ def test_step_time_left_and_curve_are_reported(tmp_path: Path, clock: Clock) -> 
     steps: list[Solved] = []
     run(steps.append)
     file, shown = tmp_path / "progress", []
-    watch = Watch(file, len(steps), shown.append)
+    watch = Watch(file, shown.append, len(steps))
     with watch.stage("solving 6 steps") as told:
         for number, solved in enumerate(steps, start=1):
             clock.now += 10.0
@@ -229,7 +229,7 @@ def test_showing_steps_takes_a_share_of_the_time_at_most(tmp_path: Path, clock: 
         shown.append(solved)
         clock.now += 3.0
 
-    watch = Watch(tmp_path / "progress", 400, show)
+    watch = Watch(tmp_path / "progress", show, 400)
     began = clock.now
     with watch.stage("solving"):
         for _ in range(399):

@@ -3,8 +3,6 @@ gives out."""
 
 from __future__ import annotations
 
-import asyncio
-import time
 from importlib import resources
 from typing import Any
 
@@ -43,6 +41,9 @@ def application(place: Place) -> Any:
     static = {entry.name: entry.read_bytes() for entry in resources.files(__package__).joinpath("static").iterdir()}
     static |= {"viewer.js": page.script().encode(), "viewer.css": page.style().encode()}
 
+    def no_run() -> Response:
+        return Response("no such run", 404, media_type="text/plain")
+
     @app.get("/static/{name}")
     async def asset(name: str) -> Response:
         kind = {"js": "text/javascript", "css": "text/css"}.get(name.rpartition(".")[2])
@@ -58,10 +59,9 @@ def application(place: Place) -> Any:
 
     @app.get("/views/{key}/{run}")
     async def scene(key: str, run: str) -> Response:
-        session = place.sessions.get(key)
-        known = None if session is None else session.runs.get(run)
+        session, known = place.run_of(key, run)
         if session is None or known is None:
-            return Response("no such run", 404, media_type="text/plain")
+            return no_run()
         views = session.views_of(known)
         file = views.with_name(views.name + SCENE)
         if not file.is_file() or not is_within(file, session.folder):
@@ -71,13 +71,10 @@ def application(place: Place) -> Any:
     @app.get("/views/{key}/{run}/{name}")
     async def array(key: str, run: str, name: str) -> Response:
         """One array of the maps; one that is still being made is waited for."""
-        session = place.sessions.get(key)
-        known = None if session is None else session.runs.get(run)
+        session, known = place.run_of(key, run)
         if session is None or known is None:
-            return Response("no such run", 404, media_type="text/plain")
-        end = time.monotonic() + PATIENCE
-        while (file := session.shown(known, name)) is None and time.monotonic() < end:
-            await asyncio.sleep(0.02)
+            return no_run()
+        file = await session.made(known, name)
         if file is None:
             return Response("no such map", 404, media_type="text/plain")
         return FileResponse(file, media_type="application/octet-stream", headers={"cache-control": "no-store"})
@@ -124,10 +121,9 @@ def application(place: Place) -> Any:
 
     @app.get("/share/{key}/{run}")
     def share(key: str, run: str) -> Response:
-        session = place.sessions.get(key)
-        known = None if session is None else session.runs.get(run)
+        session, known = place.run_of(key, run)
         if session is None or known is None:
-            return Response("no such run", 404, media_type="text/plain")
+            return no_run()
         try:
             archive = session.shared(known)
         except AsperityError as error:
@@ -148,9 +144,6 @@ def application(place: Place) -> Any:
     )
     return app
 
-
-PATIENCE = 120.0
-"""Seconds for which an array is waited for that is not made yet."""
 
 FAVICON = (
     '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 32 32"><rect width="32" height="32" rx="6" fill="#005a9c"/>'

@@ -221,14 +221,15 @@ def rows(pairs: list[list[str]] | list[tuple[str, str]]) -> None:
                 ui.label(str(text))
 
 
-def text_table(headings: list[str], rows: list[list[str]]) -> None:
-    """A table of text that scrolls where it is wide."""
-    box = ui.element("div").classes("spots texts").props('tabindex=0 role="region"')
+def text_table(headings: list[str], rows: list[list[str]], *, tall: bool = True) -> None:
+    """A table of text that scrolls where it is wide, and unless it may be ``tall`` along its
+    rows."""
+    box = ui.element("div").classes("spots texts" if tall else "spots").props('tabindex=0 role="region"')
     box.props["aria-label"] = ", ".join(filter(None, headings))
     with box, ui.element("table"):
         with ui.element("thead"), ui.element("tr"):
             for text in headings:
-                with ui.element("th"):
+                with ui.element("th").props('scope="col"'):
                     ui.label(text)
         with ui.element("tbody"):
             for row in rows:

@@ -3,7 +3,6 @@ spots, theories, certificate."""
 
 from __future__ import annotations
 
-import asyncio
 import base64
 import json
 from collections.abc import Awaitable, Callable
@@ -20,7 +19,7 @@ from ..core.status import SENTENCES
 from ..core.units import show
 from . import maps
 from .differences import Told, difference, run_name
-from .layout import failure, rows
+from .layout import failure, rows, text_table
 from .pages_run import cancel, downloads, progress, start
 from .remedies import Remedy, remedies
 from .session import Run, Session
@@ -271,11 +270,10 @@ class _Explored:
 
     async def fetched(self, name: str) -> dict[str, Any] | None:
         """Content of the file ``name`` of the run, as soon as it is there; None if the page is left
-        before."""
-        while (file := self.session.shown(self.run, name)) is None:
-            await asyncio.sleep(0.05)
-            if self.client.is_deleted:
-                return None
+        before, or nobody makes it."""
+        file = await self.session.made(self.run, name, lambda: not self.client.is_deleted)
+        if file is None:
+            return None
         found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
         return found
 
@@ -424,11 +422,11 @@ class _Explored:
                 rows(part["rows"])
                 for title, headings, cells in part["tables"]:
                     ui.label(title).classes("table-title")
-                    _table(headings, cells)
+                    text_table(headings, cells, tall=False)
                 for text in part["remarks"]:
                     ui.label(text).classes("hint")
         with ui.expansion("Certificate: what proves the solution").classes("wide").props("data-certificate"):
-            _table(["check", "value", "meaning"], shown["certificate"])
+            text_table(["check", "value", "meaning"], shown["certificate"], tall=False)
 
 
 def _spot_table(rows: list[list[float]], name: str) -> str:
@@ -443,19 +441,3 @@ def _spot_table(rows: list[list[float]], name: str) -> str:
         cells = "".join(f"<td>{text}</td>" for text in texts)
         lines.append(f'<tr tabindex="0" data-spot="{x!r},{y!r}" data-of="{name}">{cells}</tr>')
     return "".join([*lines, "</tbody></table>"])
-
-
-def _table(headings: list[str], cells: list[list[str]]) -> None:
-    box = ui.element("div").classes("spots").props('tabindex=0 role="region"')
-    box.props["aria-label"] = ", ".join(filter(None, headings))
-    with box, ui.element("table"):
-        with ui.element("thead"), ui.element("tr"):
-            for text in headings:
-                with ui.element("th").props('scope="col"'):
-                    ui.label(text)
-        with ui.element("tbody"):
-            for row in cells:
-                with ui.element("tr"):
-                    for text in row:
-                        with ui.element("td"):
-                            ui.label(text)

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..core.errors import AsperityError
 from ..core.units import show
+from ..io.atomic import atomic_file
 from ..io.schemas.surfaces import prepared
 from ..run.build import build_surface
 from ..surfaces.characterise.heights import peak_to_valley, rms_height
@@ -124,7 +125,5 @@ def thinned(heights: Any, most: int | None = None) -> tuple[Any, int]:
 
 def kept(heights: Any, file: Path) -> None:
     """Write all ``heights`` (nx, ny) in m to ``file``, which is there whole or not at all."""
-    partial = file.with_suffix(".part")
-    with partial.open("wb") as out:
+    with atomic_file(file, overwrite=True) as partial, partial.open("wb") as out:
         np.save(out, np.asarray(heights, dtype="<f8"))
-    partial.replace(file)

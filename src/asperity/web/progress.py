@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from ..core.status import Progress, share_done
+from ..io.atomic import atomic_file
 from ..parts.part import Solved
 
 OFTEN = 0.1
@@ -47,9 +48,8 @@ class Reported:
 
     def write(self, file: Path) -> None:
         """Write it to ``file``."""
-        unfinished = file.with_suffix(".part")
-        unfinished.write_text(json.dumps(asdict(self)), encoding="utf-8")
-        unfinished.replace(file)
+        with atomic_file(file, overwrite=True) as partial:
+            partial.write_text(json.dumps(asdict(self)), encoding="utf-8")
 
     @property
     def in_words(self) -> str:
@@ -77,11 +77,11 @@ def time_left(seconds: float) -> str:
 
 
 class Watch:
-    """Reports to ``file`` what a run does, and makes steps visible by ``show`` as they are
-    solved."""
+    """Reports to ``file`` what a run of so many ``steps`` does, and makes them visible by ``show``
+    as they are solved."""
 
-    def __init__(self, file: Path, steps: int, show: Callable[[Solved], object]) -> None:
-        self._file, self._steps, self._show = file, steps, show
+    def __init__(self, file: Path, show: Callable[[Solved], object], steps: int = 0) -> None:
+        self._file, self._show, self.steps = file, show, steps
         self._stage, self._began, self._last = "", time.monotonic(), 0.0
         self._largest, self._done = 0.0, 0
         self._curve: list[list[float]] = []
@@ -104,8 +104,8 @@ class Watch:
         text = f"iteration {iteration}, error {error:.1e}"
         if tolerance == 0.0:  # shares of a count
             self._report(1.0 - error, f"step {iteration}", self._after(1.0 - error))
-        elif self._steps > 1 and self._done < self._steps:
-            self._report(self._done / self._steps, f"step {self._done + 1} of {self._steps}, {text}", self._path_left())
+        elif self.steps > 1 and self._done < self.steps:
+            self._report(self._done / self.steps, f"step {self._done + 1} of {self.steps}, {text}", self._path_left())
         else:
             share = share_done(error, self._largest, tolerance)
             self._report(share, text, self._after(share))
@@ -118,19 +118,19 @@ class Watch:
         self._curve.append([float(result.mean_pressure), float(result.area_fraction)])
         now = time.monotonic()
         rested = now - self._shown > max(LOOKED, self._showing / SHARE)
-        if rested or self._done == self._steps:
+        if rested or self._done == self.steps:
             self._show(solved)
             self._shown, self._showing = time.monotonic(), time.monotonic() - now
             self._ends[-1] = self._shown
-        if self._steps > 1:
-            self._report(self._done / self._steps, f"step {self._done} of {self._steps}", self._path_left())
+        if self.steps > 1:
+            self._report(self._done / self.steps, f"step {self._done} of {self.steps}", self._path_left())
 
     def _path_left(self) -> float | None:
         """Seconds until all steps are solved, from the last ones."""
         if len(self._ends) < 2:
             return None
         each = (self._ends[-1] - self._ends[0]) / (len(self._ends) - 1)
-        return max(0.0, each * (self._steps - self._done) - (time.monotonic() - self._ends[-1]))
+        return max(0.0, each * (self.steps - self._done) - (time.monotonic() - self._ends[-1]))
 
     def _after(self, share: float) -> float | None:
         """Seconds until the stage ends, from the ``share`` of it that is done."""

@@ -3,11 +3,13 @@ can be opened again."""
 
 from __future__ import annotations
 
+import asyncio
 import json
 import math
 import secrets
 import shutil
 import tempfile
+import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
@@ -27,6 +29,9 @@ from .workers import Limits, Worker
 
 SCRATCH = "scratch-"
 """Beginning of the name of the folder of what only the open application needs."""
+
+PATIENCE = 120.0
+"""Seconds for which a file is waited for that the page of a run fetches."""
 
 Kind = Literal["run", "sweep"]
 
@@ -106,7 +111,16 @@ class Session:
     def shown(self, run: Run, name: str) -> Path | None:
         """The file of that ``name`` that the page of ``run`` fetches, once it is there."""
         folder = self.scratch / f"{run.key}{ARRAYS}"
-        return next((path for path in folder.glob("*") if path.name == name), None) if folder.is_dir() else None
+        there = {path.name for path in folder.iterdir()} if folder.is_dir() else set()
+        return folder / name if name in there else None
+
+    async def made(self, run: Run, name: str, wanted: Callable[[], bool] = lambda: True) -> Path | None:
+        """The same, waited for as long as it is ``wanted``; None if it is still not there then, or
+        after ``PATIENCE``."""
+        end = time.monotonic() + PATIENCE
+        while (file := self.shown(run, name)) is None and wanted() and time.monotonic() < end:
+            await asyncio.sleep(0.02)
+        return file
 
     def progress_of(self, run: Run) -> Path:
         """File in which the worker of ``run`` reports."""
@@ -348,6 +362,11 @@ class Place:
             raise
         self.sessions[key] = session
         return key, session
+
+    def run_of(self, key: str, run: str) -> tuple[Session | None, Run | None]:
+        """The session of that ``key``, and its ``run``, as far as they are known."""
+        session = self.sessions.get(key)
+        return session, None if session is None else session.runs.get(run)
 
     def room(self) -> float:
         """Bytes that may still be uploaded."""

@@ -304,10 +304,10 @@ def contact(task: Task) -> dict[str, Any]:
     does, into the folder ``out``; what the page of the run shows comes before the files."""
     base, out, views = Path(task["folder"]), Path(task["out"]), Views(Path(task["views"]))
     document = load_document(task["document"])
-    watch = Watch(Path(task["progress"]), 0, views.maps)
+    watch = Watch(Path(task["progress"]), views.maps)
     with watch.stage("reading and preparing"):
         case = build(document, base)
-    watch = Watch(Path(task["progress"]), len(case.path), views.maps)
+    watch.steps = len(case.path)
     with atomic_folder(out) as folder:
         outcome = execute(case, stage=watch.stage, reached=watch.reached)
         with watch.stage("making it explorable"):

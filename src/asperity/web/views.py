@@ -22,6 +22,7 @@ from ..contact.measure import labelled
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
 from ..core.arrays import RealArray
+from ..io.atomic import atomic_file
 from ..io.words import HEADLINE, certificate_rows, result_rows
 from ..parts.part import Solved
 from ..physics.stress.figures import map_figure
@@ -138,11 +139,9 @@ class Views:
 def _write_array(make: Callable[[], Stored], file: Path) -> None:
     """A line of JSON with what the array is, and its numbers, to ``file``."""
     about, numbers = make()
-    unfinished = file.with_name(file.name + ".part")
-    with unfinished.open("wb") as target:
+    with atomic_file(file, overwrite=True) as partial_file, partial_file.open("wb") as target:
         target.write(json.dumps(about, allow_nan=False).encode("ascii") + b"\n")
         target.write(numbers.astype(numbers.dtype.newbyteorder("<"), copy=False).tobytes())
-    unfinished.replace(file)
 
 
 def _write_spots(result: ContactResult, file: Path) -> None:
@@ -189,9 +188,8 @@ def _spots(result: ContactResult) -> dict[str, Any]:
 
 
 def _write(file: Path, content: Any) -> None:
-    unfinished = file.with_name(file.name + ".part")
-    unfinished.write_text(json.dumps(content, allow_nan=False), encoding="utf-8")
-    unfinished.replace(file)
+    with atomic_file(file, overwrite=True) as partial_file:
+        partial_file.write_text(json.dumps(content, allow_nan=False), encoding="utf-8")
 
 
 def _planes(outcome: Outcome) -> Iterator[Figure]:

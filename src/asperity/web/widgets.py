@@ -3,7 +3,7 @@ wrong with it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
@@ -47,7 +47,10 @@ class Context:
 def form(context: Context, model: type[Settings], keys: Keys, leave: frozenset[str] = frozenset()) -> None:
     """Entries for the table ``model`` at ``keys``: what must be given first, what has tables of its
     own last."""
-    entries = asked_of(model, leave)
+    _entries(context, asked_of(model, leave), keys)
+
+
+def _entries(context: Context, entries: Sequence[Asked], keys: Keys) -> None:
     plain = [item for item in entries if item.tables is None]
     with ui.element("div").classes("fields"):
         for item in sorted(plain, key=lambda item: not item.required):
@@ -63,13 +66,7 @@ def folded(context: Context, model: type[Settings], keys: Keys, basic: tuple[str
     entries = asked_of(model)
     first = [item for item in entries if item.required or item.name in basic] or list(entries[:FIRST])
     rest = [item for item in entries if item not in first]
-    plain = [item for item in first if item.tables is None]
-    with ui.element("div").classes("fields"):
-        for item in sorted(plain, key=lambda item: not item.required):
-            entry(context, item, (*keys, item.name))
-    for item in first:
-        if item.tables is not None:
-            nested(context, item, (*keys, item.name))
+    _entries(context, first, keys)
     if rest:
         given = any(context.get((*keys, item.name)) is not None for item in rest)
         dotted = ".".join(map(str, keys))

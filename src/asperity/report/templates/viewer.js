@@ -1327,6 +1327,6 @@ async function start(root) {
   }
 }
 
-window.AsperityViewer = { create: (element, scene, options) => new Viewer(element, scene, options), start, Curves, text: { short, withUnit, rounded, decimalsFor } };
+window.AsperityViewer = { create: (element, scene, options) => new Viewer(element, scene, options), start, Curves, text: { short, withUnit, rounded, decimalsFor }, make };
 if (document.querySelector("[data-viewer], figure[data-curves]")) start(document);
 })();

@@ -5,17 +5,9 @@
 
 /* Addresses of the pages begin with a path of their own, below which this file lies, too. */
 const root = document.currentScript.src.replace(/\/static\/explore\.js.*$/, "");
-const { text: words } = AsperityViewer;
+const { text: words, make } = AsperityViewer;
 const all = (selector) => [...document.querySelectorAll(selector)];
 const shownRuns = () => all("[data-scene][data-ready]").map((area) => area.viewer);
-
-function make(tag, parent, attributes, text) {
-  const element = document.createElement(tag);
-  for (const [key, value] of Object.entries(attributes || {})) element.setAttribute(key, value);
-  if (text !== undefined) element.textContent = text;
-  parent.append(element);
-  return element;
-}
 
 const last = new Map(); // the viewer of each area, which a later one of the same area goes on from
 
