@@ -7,24 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from small_problem import PLAIN
 
 import asperity as asp
 from asperity.core.errors import InputError
 from asperity.core.words import speaking
 from asperity.run.refusals import refusals
-
-PLAIN: dict[str, Any] = {
-    "version": 2,
-    "surface": {
-        "kind": "rough",
-        "points": [48, 32],
-        "size": "2 um x 2 um",
-        "seed": 5,
-        "spectrum": {"kind": "gaussian", "rms_height": "4 nm", "correlation_length": "0.3 um"},
-    },
-    "body": {"material": "steel"},
-    "control": {"mean_pressure": "40 MPa"},
-}
 
 REFUSED: dict[str, dict[str, Any]] = {
     "plastic_flow": {"plastic_flow": {}},

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from small_problem import PLAIN
 
 pytest.importorskip("nicegui", reason="the extra web is not installed")
 
@@ -13,28 +14,16 @@ from asperity.run.document import checked
 from asperity.web.layout import STEPS
 from asperity.web.remedies import CHANGES, remedies
 
-ROUGH: dict[str, Any] = {
-    "version": 2,
-    "surface": {
-        "kind": "rough",
-        "points": [48, 32],
-        "size": "2 um x 2 um",
-        "seed": 5,
-        "spectrum": {"kind": "gaussian", "rms_height": "4 nm", "correlation_length": "0.3 um"},
-    },
-    "body": {"material": "steel"},
-    "control": {"mean_pressure": "40 MPa"},
-}
 GRID = ((48, 32), (2e-6 / 48, 2e-6 / 32))
 
 
-def of(text: str, table: dict[str, Any] = ROUGH) -> list[Any]:
+def of(text: str, table: dict[str, Any] = PLAIN) -> list[Any]:
     return list(remedies(text, table, *GRID))
 
 
 @pytest.mark.parametrize("name", sorted(CHANGES))
 def test_every_change_gives_a_valid_document_that_differs(name: str) -> None:
-    table = ROUGH | ({"boundary": {"kind": "free"}} if name == "periodic" else {})
+    table = PLAIN | ({"boundary": {"kind": "free"}} if name == "periodic" else {})
     (found,) = of(f"Do it ({{{name}}}).", table)
     assert found.words.startswith(ACTIONS[name].form)
     assert found.table != table
@@ -53,7 +42,7 @@ def test_each_is_offered_once_and_values_of_keys_are_set() -> None:
     assert [item.table is None for item in found] == [False, False]
     assert found[0].table["friction"] == {"coefficient": 0.3}
     assert found[1].table["boundary"] == {"kind": "free"}
-    assert ROUGH.keys() == {"version", "surface", "body", "control"}
+    assert PLAIN.keys() == {"version", "surface", "body", "control"}
 
 
 def test_a_grid_is_refined_in_one_step_and_not_without_end() -> None:
@@ -61,10 +50,10 @@ def test_a_grid_is_refined_in_one_step_and_not_without_end() -> None:
     assert once.table["surface"]["prepare"] == [{"step": "resample", "points": [96, 64]}]
     (twice,) = remedies("{resample}", once.table, (96, 64), GRID[1])
     assert twice.table["surface"]["prepare"] == [{"step": "resample", "points": [192, 128]}]
-    (large,) = remedies("{resample}", ROUGH, (4096, 4096), GRID[1])
+    (large,) = remedies("{resample}", PLAIN, (4096, 4096), GRID[1])
     assert (large.table, large.page) == (None, "prepare")
 
 
 def test_what_is_so_already_is_not_offered_to_be_applied() -> None:
-    (found,) = of("{free}", ROUGH | {"boundary": {"kind": "free"}})
+    (found,) = of("{free}", PLAIN | {"boundary": {"kind": "free"}})
     assert found.table is None

@@ -15,6 +15,17 @@ from typing import Any
 from urllib.parse import quote, urlsplit
 
 
+def install_part(folder: Path, module: str, code: str, name: str, made: str) -> None:
+    """Put a package into ``folder`` whose ``module`` has the ``code`` of a part, found by the entry
+    point ``name`` as ``made``."""
+    (folder / f"{module}.py").write_text(code, encoding="utf-8")
+    project = module.replace("_", "-")
+    information = folder / f"{module}-1.0.dist-info"
+    information.mkdir()
+    (information / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project}\nVersion: 1.0\n", encoding="utf-8")
+    (information / "entry_points.txt").write_text(f"[asperity.parts]\n{name} = {module}:{made}\n", encoding="utf-8")
+
+
 @dataclass
 class AppServer:
     """``asperity app`` with these ``arguments``; ``packages`` is a folder of further ones,

@@ -64,6 +64,17 @@ def solved(open_page: Any, folder: Path, runs: int = len(RUNS)) -> Path:
     return kept
 
 
+def solved_in(browser: Any, folder: Path, runs: int = len(RUNS)) -> Path:
+    """The same in windows of the ``browser`` that nobody watches."""
+
+    def opened(address: str) -> Any:
+        page = browser.new_page()
+        page.goto(address)
+        return page
+
+    return solved(opened, folder, runs)
+
+
 def keys(kept: Path) -> list[str]:
     """Keys of the runs, in their order."""
     return sorted(item.name for item in (kept / "runs").iterdir() if item.is_dir())

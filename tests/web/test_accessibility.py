@@ -3,12 +3,10 @@ landmarks, language, keyboard, and the choice of dark or light."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 pytest.importorskip("nicegui", reason="the extra web is not installed")
@@ -16,7 +14,8 @@ pytest.importorskip("nicegui", reason="the extra web is not installed")
 from asperity.web.layout import STEPS
 
 from .app_server import AppServer
-from .explored import LONG, keys, solved
+from .colours import contrast
+from .explored import LONG, keys, solved_in
 
 Open = Callable[..., Any]
 AXE = Path(__file__).with_name("axe") / "axe.min.js"
@@ -31,12 +30,7 @@ SCHEMES = ("light", "dark")
 
 @pytest.fixture(scope="module")
 def kept(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    def opened(address: str) -> Any:
-        page = browser.new_page()
-        page.goto(address)
-        return page
-
-    return solved(opened, tmp_path_factory.mktemp("accessible"), runs=2)
+    return solved_in(browser, tmp_path_factory.mktemp("accessible"), runs=2)
 
 
 @pytest.fixture(scope="module")
@@ -173,18 +167,6 @@ def test_every_page_has_language_landmarks_and_is_reached_by_keyboard(app: AppSe
             reached.add(page.evaluate("document.activeElement.outerHTML.slice(0, 300)"))
         assert len(reached) > 5, name
         page.goto(back)
-
-
-def contrast(first: str, second: str) -> float:
-    """Ratio of the luminances of two colours "rgb(r, g, b)" (WCAG 2)."""
-
-    def luminance(colour: str) -> float:
-        parts = np.array([float(part) for part in re.findall(r"[\d.]+", colour)[:3]]) / 255.0
-        linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
-        return float(linear @ [0.2126, 0.7152, 0.0722])
-
-    low, high = sorted((luminance(first), luminance(second)))
-    return (high + 0.05) / (low + 0.05)
 
 
 def rgb(text: str) -> str:

@@ -12,7 +12,7 @@ import pytest
 
 pytest.importorskip("nicegui", reason="the extra web is not installed")
 
-from .app_server import AppServer
+from .app_server import AppServer, install_part
 
 LONG = 90_000
 
@@ -78,11 +78,7 @@ class Hot(Part):
 def app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[AppServer]:
     """The application on a problem, with a package that adds a part."""
     folder = tmp_path_factory.mktemp("packages")
-    (folder / "hot_spots.py").write_text(PART, encoding="utf-8")
-    information = folder / "hot_spots-1.2.dist-info"
-    information.mkdir()
-    (information / "METADATA").write_text("Metadata-Version: 2.1\nName: hot-spots\nVersion: 1.2\n", encoding="utf-8")
-    (information / "entry_points.txt").write_text("[asperity.parts]\nhot = hot_spots:Hot\n", encoding="utf-8")
+    install_part(folder, "hot_spots", PART, "hot", "Hot")
     (folder / "problem.toml").write_text(PROBLEM, encoding="utf-8")
     kept = folder / "kept"
     arguments = (str(folder / "problem.toml"), "--threads", "1", "--folder", str(kept))
@@ -95,6 +91,17 @@ def opened(app: AppServer, open_page: Callable[..., Any], step: str) -> Any:
     page.wait_for_url("**/s/**")
     page.goto(f"{page.url.rsplit('/', 1)[0]}/{step}")
     page.wait_for_selector("h1")
+    return page
+
+
+def explored(app: AppServer, open_page: Callable[..., Any]) -> Any:
+    """Explore of the last run; one is made if no test before has made any."""
+    page = opened(app, open_page, "run")
+    if not page.locator("[data-state=done]").count():
+        page.click("[data-run]")
+        page.wait_for_selector("[data-state=done]", timeout=LONG)
+    page.goto(page.url.replace("/run", "/explore"))
+    page.wait_for_selector("[data-ready]", timeout=LONG)
     return page
 
 
@@ -145,12 +152,7 @@ def test_a_part_of_another_package_and_a_solved_contact(app: AppServer, open_pag
 
 @pytest.mark.slow
 def test_the_spots_are_those_of_the_step_that_the_maps_show(app: AppServer, open_page: Callable[..., Any]) -> None:
-    page = opened(app, open_page, "run")
-    if not page.locator("[data-state=done]").count():
-        page.click("[data-run]")
-        page.wait_for_selector("[data-state=done]", timeout=LONG)
-    page.goto(page.url.replace("/run", "/explore"))
-    page.wait_for_selector("[data-ready]", timeout=LONG)
+    page = explored(app, open_page)
     page.click("[data-spots]")
     row = page.locator("tr[data-spot]").first
     row.wait_for(state="visible", timeout=LONG)
@@ -262,12 +264,7 @@ def test_what_a_part_refuses_stands_beside_its_table_before_the_run(
 def test_theories_stand_grey_beside_the_exact_solution_but_for_the_nearest(
     app: AppServer, open_page: Callable[..., Any]
 ) -> None:
-    page = opened(app, open_page, "run")
-    if not page.locator("[data-state=done]").count():
-        page.click("[data-run]")
-        page.wait_for_selector("[data-state=done]", timeout=LONG)
-    page.goto(page.url.replace("/run", "/explore"))
-    page.wait_for_selector("[data-ready]", timeout=LONG)
+    page = explored(app, open_page)
     page.click("[data-compared]")
     page.click("[data-theories]")
     page.wait_for_selector(".theories .main-svg", timeout=LONG)

@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("nicegui", reason="the extra web is not installed")
 
-from .app_server import AppServer
+from .app_server import AppServer, install_part
 
 LONG = 90_000
 
@@ -84,11 +84,7 @@ def app(tmp_path: Path, request: Any) -> Iterator[AppServer]:
     """The application on a path of so many loads, 40 by default, with an analysis that ends when it
     may."""
     problem = PROBLEM.replace("steps = 40", f"steps = {getattr(request, 'param', 40)}")
-    (tmp_path / "slow_part.py").write_text(PART, encoding="utf-8")
-    information = tmp_path / "slow_part-1.0.dist-info"
-    information.mkdir()
-    (information / "METADATA").write_text("Metadata-Version: 2.1\nName: slow-part\nVersion: 1.0\n", encoding="utf-8")
-    (information / "entry_points.txt").write_text("[asperity.parts]\nslow = slow_part:Slow\n", encoding="utf-8")
+    install_part(tmp_path, "slow_part", PART, "slow", "Slow")
     (tmp_path / "problem.toml").write_text(problem, encoding="utf-8")
     with AppServer((str(tmp_path / "problem.toml"), "--threads", "1"), packages=tmp_path) as running:
         yield running

@@ -16,7 +16,7 @@ pytest.importorskip("nicegui", reason="the extra web is not installed")
 from asperity.core.arrays import RealArray
 
 from .app_server import AppServer
-from .explored import LONG, RUNS, keys, solved
+from .explored import LONG, RUNS, keys, solved_in
 
 Open = Callable[..., Any]
 SCREEN = {"viewport": {"width": 1400, "height": 900}}
@@ -27,12 +27,7 @@ SETTLED = 1500
 
 @pytest.fixture(scope="module")
 def kept(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    def opened(address: str) -> Any:
-        page = browser.new_page()
-        page.goto(address)
-        return page
-
-    return solved(opened, tmp_path_factory.mktemp("explored"))
+    return solved_in(browser, tmp_path_factory.mktemp("explored"))
 
 
 @pytest.fixture(scope="module")

@@ -19,6 +19,8 @@ from asperity.core.arrays import RealArray
 from asperity.report.scene import decoded, scene_of
 from asperity.run.execute import Outcome
 
+from .colours import contrast
+
 DOCUMENT = {
     "version": 2,
     "surface": {
@@ -417,18 +419,6 @@ def test_a_phone_scrolls_one_way_and_reads_by_touch(report: Report, open_page: O
     page.touchscreen.tap(x, y)
     viewer(page, "0")
     assert re.fullmatch(r"−?[\d.]+ nm", panel(page, "heights").locator(".av-value").inner_text())
-
-
-def contrast(first: str, second: str) -> float:
-    """Ratio of the luminances of two colours "rgb(r, g, b)" (WCAG 2)."""
-
-    def luminance(colour: str) -> float:
-        parts = np.array([float(part) for part in re.findall(r"[\d.]+", colour)[:3]]) / 255.0
-        linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
-        return float(linear @ [0.2126, 0.7152, 0.0722])
-
-    low, high = sorted((luminance(first), luminance(second)))
-    return (high + 0.05) / (low + 0.05)
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
