@@ -70,11 +70,12 @@ def application(place: Place) -> Any:
 
     @app.get("/views/{key}/{run}/{name}")
     async def array(key: str, run: str, name: str) -> Response:
-        """One array of the maps; one that is still being made is waited for."""
+        """One array of the maps; one that is still being made is waited for, unless the
+        application ends."""
         session, known = place.run_of(key, run)
         if session is None or known is None:
             return no_run()
-        file = await session.made(known, name)
+        file = await session.made(known, name, lambda: not place.ends())
         if file is None:
             return Response("no such map", 404, media_type="text/plain")
         return FileResponse(file, media_type="application/octet-stream", headers={"cache-control": "no-store"})

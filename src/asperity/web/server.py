@@ -101,6 +101,7 @@ def serve(options: Options, opened: Callable[[str, Path], None], renewed: Callab
                 timeout_graceful_shutdown=2,
             )
             server = uvicorn.Server(config)
+            place.ends = lambda: server.should_exit
             first.write_text(leading_to(address(guard.token)), encoding="utf-8")
             opened(address(guard.token), first)
             with _ended_by_signals(server), speaking("form"):

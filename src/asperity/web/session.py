@@ -320,7 +320,8 @@ class Session:
 class Place:
     """Where sessions live: a private temporary ``folder``, and those that are open, by their keys.
 
-    ``largest`` is the most bytes of one upload, ``quota`` of all that the sessions have.
+    ``largest`` is the most bytes of one upload, ``quota`` of all that the sessions have; ``ends``
+    tells whether the application is being ended.
     """
 
     folder: Path
@@ -330,6 +331,7 @@ class Place:
     roots: tuple[Path, ...] = ()
     quota: float = math.inf
     sessions: dict[str, Session] = field(default_factory=dict)
+    ends: Callable[[], bool] = lambda: False
 
     def new(self, folder: Path | None = None) -> tuple[str, Session]:
         """A new session, in a private folder or in ``folder``, where one may be already; its key is
