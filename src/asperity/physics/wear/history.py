@@ -18,7 +18,7 @@ from ...core.status import Advice, Status
 from .geometry import UNEVEN, Thinned
 from .losses import Doses
 
-LARGEST_ERROR = 0.1
+LARGEST_ERROR = 0.2
 """Share of the worn volume that steps may have misplaced, above which numbers are doubtful."""
 
 LEAST_PIXELS = 50

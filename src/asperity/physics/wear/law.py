@@ -91,7 +91,8 @@ class WearLaw:
         return doses, depths, coefficients
 
     def _effective(self, dose: RealArray) -> RealArray:
-        return np.asarray(self.factor * np.maximum(dose - self.threshold_dose, 0.0))
+        beyond = np.maximum(dose - self.threshold_dose, 0.0) if self.threshold_dose else dose
+        return np.asarray(beyond if isinstance(self.factor, float) and self.factor == 1.0 else self.factor * beyond)
 
     def stage(self, dose: RealArray) -> NDArray[np.intp]:
         """Number of the stage from 0 that points of this ``dose`` (Pa m) are in."""
@@ -130,6 +131,11 @@ class WearLaw:
         if coefficients[stage] == 0.0:
             return math.inf
         return self.threshold_dose + (float(doses[stage]) + beyond / float(coefficients[stage])) / self.factor
+
+    @property
+    def linear(self) -> bool:
+        """Whether the depth is a multiple of the dose."""
+        return len(self.stages) == 1 and self.threshold_dose == 0.0 and self.threshold_pressure == 0.0
 
     @property
     def dose_of_layers(self) -> float | RealArray:

@@ -161,20 +161,23 @@ class Losses:
     def linearised(self, before: Doses, doses: Doses, pressure: RealArray, slid: float | RealArray) -> Linearised:
         """Depth lost since ``before`` by a stretch of ``slid`` (m) that begins with ``doses``, near
         ``pressure`` (nx, ny) in Pa."""
-        after = self.after(doses, pressure, slid)
         bed: float | RealArray = 0.0
         track: RealArray | None = None
-        start = self.depth(after) - self.depth(before)
-        for loss, dose in zip((self.body, self.counter), after, strict=True):
-            if loss is None or dose is None:
+        start = np.zeros(self.grid.shape)
+        for loss, first, begin in zip((self.body, self.counter), before, doses, strict=True):
+            if loss is None or first is None or begin is None:
                 continue
-            slope = loss.slope(dose, pressure, slid)
+            end = begin + loss.exposure(pressure, slid)
+            slope = loss.slope(end, pressure, slid)
+            if loss.law.linear:
+                start = start if begin is first else start + (loss.law.depth(begin) - loss.law.depth(first))
+            else:
+                beside = slope * (pressure if loss.share is None else pressure.mean(axis=0))
+                start = start + (loss.law.depth(end) - loss.law.depth(first) - beside)
             if loss.share is None:
                 bed = bed + slope
-                start = start - slope * pressure
             else:
                 track = slope
-                start = start - slope * pressure.mean(axis=0)
         if isinstance(bed, np.ndarray) and bed.ndim and float(np.ptp(bed)) == 0.0:
             bed = float(bed.flat[0])
         return Linearised(start, float(bed) if np.ndim(bed) == 0 else bed, track)

@@ -49,7 +49,7 @@ _FIRST = 1e-4
 """First step over the distance, where the depth that it wears at the largest pressure is not above
 a tenth of the deflection."""
 
-_ROUGH = 0.05
+_ROUGH = 0.2
 """Share of the difference from an explicit step that counts as error of a step of second order:
 beyond, points at moving edges of the contact ripple."""
 
@@ -84,7 +84,7 @@ class WearSteps:
         If a value is out of range.
     """
 
-    tolerance: float = 0.02
+    tolerance: float = 0.05
     number: int | None = None
     order: Literal[1, 2] = 1
     method: Literal["implicit", "explicit"] = "implicit"

@@ -80,13 +80,14 @@ def implicit_stage(
             typical = float(model.bed[touching].mean())
         operator = WearOperator(prepared.operator, model.bed, model.track, typical)
         begun = _begun(state, model, operator) if count == 1 else InterfaceState(guess, state.memory)
+        hollow = model.start if model.start.any() else None
         settled = prepared.settled(
             step,
             begun,
             operator=operator,
-            retarded=model.start,
+            retarded=hollow,
             ahead=ahead if count == 1 else None,
-            couplings=(*prepared.couplings, Hollow(model.start)),
+            couplings=prepared.couplings if hollow is None else (*prepared.couplings, Hollow(hollow)),
         )
         found = settled.contact
         own = found.solution.state
