@@ -282,7 +282,7 @@ class March:
             equal = None if number is None else (mark - at.state.distance) / number
             while not ended and at.status.converged and mark - at.state.distance > _ROUNDING * mark:
                 if taken == self.steps.most:
-                    at = at._replace(status=_too_many(at.state.distance, marks[-1], taken))
+                    at = at._replace(status=too_many("the sliding distance (m)", at.state.distance, marks[-1], taken))
                     break
                 at, taken = self.advanced(at, mark, equal), taken + 1
                 self.record(values, at)
@@ -438,8 +438,9 @@ class March:
         )
 
 
-def _too_many(distance: float, whole: float, taken: int) -> Status:
-    message = f"Not converged: {taken} steps of wear have come to {distance:g} m of {whole:g} m."
+def too_many(what: str, reached: float, whole: float, taken: int) -> Status:
+    """That ``taken`` steps have only ``reached`` a part of the ``whole``, in m or another unit."""
+    message = f"Not converged: {taken} steps of wear have come to {what} {reached:g} of {whole:g}."
     return Status(Outcome.ITERATION_LIMIT, message, "Allow more steps, or a larger tolerance ({wear.tolerance}).")
 
 
