@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
+from refusals import refused
 from study_cases import InProcess, plan
 from typer.testing import CliRunner
 
@@ -18,6 +20,8 @@ from asperity.cli.main import app
 from asperity.core.errors import InputError
 from asperity.core.registry import RESULTS
 from asperity.parts.registry import parts
+from asperity.physics.wear.work import KEPT_WAYS
+from asperity.report.animation import save_animation
 from asperity.run.build import build
 from asperity.run.document import checked, dumps, loads
 from asperity.run.stored import load_outcome, save_outcome
@@ -53,7 +57,7 @@ def test_numbers_are_those_of_python_and_files_keep_them(tmp_path: Path) -> None
     outcome = asp.run(document)
     problem, control = outcome.solved.problem, outcome.solved.control
     sides = Sides(archard(1e-15, layers=[(40e-9, 1e-16)]))
-    marks = [share * 0.1 for share in (0.03, 0.1, 0.3, 0.6, 1.0)]
+    marks = [share * 0.1 for share in KEPT_WAYS]
     history = worn(problem, control, marks, sides, steps=WearSteps(0.05, order=2))
     values = outcome.values
     for name, value in {
@@ -212,9 +216,9 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
 @pytest.mark.parametrize("name", REFUSED)
 def test_refused(name: str) -> None:
     tables, subject = REFUSED[name]
-    with pytest.raises(InputError) as refused:
+    with pytest.raises(InputError) as caught:
         build(checked(WEARING | tables))
-    assert refused.value.subject.endswith(subject)
+    assert caught.value.subject.endswith(subject)
 
 
 def test_a_study_of_the_life(tmp_path: Path) -> None:
@@ -254,6 +258,22 @@ def test_the_command_line_says_the_same(tmp_path: Path) -> None:
     assert {path.stem for path in (tmp_path / "o").rglob("*.png")} >= {"worn_depth", "worn_profile", "wear_life"}
 
 
+def test_the_section_moves(tmp_path: Path) -> None:
+    """One frame for each state that was kept, from the file of the outcome too."""
+    outcome = asp.run(WEARING | {"wear": {"distance": "0.1 m", "tolerance": "5 %"}})
+    asp.report.save_wear_animation(outcome, tmp_path / "worn.gif")
+    save_outcome(outcome, tmp_path / "worn.nc")
+    save_animation(load_outcome(tmp_path / "worn.nc"), tmp_path / "again.gif")
+    many = len(outcome.found["wear"].values["section_way"])
+    assert many > 10
+    for name in ("worn", "again"):
+        with Image.open(tmp_path / f"{name}.gif") as picture:
+            assert picture.n_frames == many
+    plain = asp.run({key: value for key, value in WEARING.items() if key != "wear"})
+    with refused(InputError, "outcome of an animation of wear"):
+        asp.report.save_wear_animation(plain, tmp_path / "none.gif")
+
+
 def test_a_history_is_kept_in_a_file(tmp_path: Path) -> None:
     outcome = asp.run(WEARING | {"wear": {"distance": "0.01 m"}})
     history = worn(outcome.solved.problem, outcome.solved.control, 0.1, archard(1e-16))
@@ -264,3 +284,29 @@ def test_a_history_is_kept_in_a_file(tmp_path: Path) -> None:
     np.testing.assert_array_equal(again["max_depth"], history["max_depth"])
     np.testing.assert_array_equal(again.last.pressure, history.last.pressure)
     assert again.status == history.status
+
+
+@pytest.mark.slow
+def test_a_measured_scan_runs_in(shared_data: Path) -> None:
+    """Of a scan by white-light interferometry: peaks go, valleys stay, and the volume is that of
+    the dose."""
+    scan = {
+        "kind": "file",
+        "path": str(shared_data / "wli_126um_640x480.opd"),
+        "prepare": [
+            {"step": "fill"},
+            {"step": "level"},
+            {"step": "crop", "x": ["0 um", "100 um"], "y": ["0 um", "90 um"]},
+            {"step": "resample", "points": [128, 128]},
+            {"step": "periodise"},
+        ],
+    }
+    table = {"distance": "1 m", "tolerance": "5 %"}
+    outcome = asp.run(WEARING | {"surface": scan, "body": "bearing steel{kw=1e-6mm^3/Nm}", "wear": table})
+    values = outcome.values
+    area = outcome.solved.problem.grid.area
+    assert values["wear_volume"] == pytest.approx(1e-15 * 20e6 * area, rel=1e-6)
+    assert values["wear_peak_height_last"] < 0.9 * values["wear_peak_height_first"]
+    assert values["wear_area_fraction_last"] > 1.5 * values["wear_area_fraction_first"]
+    assert values["wear_max_pressure_last"] < 0.5 * values["wear_max_pressure_first"]
+    assert outcome.found["wear"].status.converged

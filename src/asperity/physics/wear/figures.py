@@ -3,16 +3,19 @@ wears, depth and contact along the way, bearing curves."""
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
+from ...plots.animation import save_frames
 from ...plots.maps import Field, Kinds, Look, map_of
-from ...plots.picture import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, VERMILLION, Plot, Scale, legend_above, scale
+from ...plots.picture import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, VERMILLION, Plot, Scale, legend_above, scale, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,6 +25,9 @@ DEPTH_MAP = "magma"
 
 WAYS = "viridis"
 """Colours of states along the way, the first dark."""
+
+SHOWN = 6
+"""States that a figure of the section shows."""
 
 CURVE_POINTS = 401
 """Points of a bearing curve."""
@@ -99,7 +105,8 @@ def _section(shown: WearPicture, ax: Axes, values: RealArray, unit: str, label: 
     from matplotlib import colormaps
 
     rows, ways, grid = np.atleast_2d(values), np.atleast_1d(shown.array("section_way")), shown.problem.grid
-    axis = 1 if shown.facts["across"] else 0
+    chosen = np.unique(np.linspace(0, len(ways) - 1, SHOWN).round().astype(int))
+    rows, ways, axis = rows[chosen], ways[chosen], 1 if shown.facts["across"] else 0
     in_unit, length = scale(rows, unit), scale(grid.size[axis], "m")
     x = length((np.arange(grid.shape[axis]) + 0.5) * grid.spacing[axis])
     in_way, _ = shown.along(ways)
@@ -225,3 +232,55 @@ BEARING_PLOT = Plot(
     "Share of the composite surface that is higher than a height, from the mean plane before wear.",
     plot_bearing,
 )
+
+
+# The section as an animated picture.
+
+FRAME_SIZE, PAUSE = (5.6, 4.6), 400
+"""Width and height of a frame in inches, and ms that it stands."""
+
+
+def wear_frames(shown: WearPicture, dpi: int = 100) -> tuple[bytes, ...]:
+    """PNG of the section and of its pressure at each state that was kept, all of one range of
+    axes."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure as Canvas
+
+    heights, pressure = (np.atleast_2d(shown.array(f"section_{name}")) for name in ("heights", "pressure"))
+    ways, grid, axis = np.atleast_1d(shown.array("section_way")), shown.problem.grid, 1 if shown.facts["across"] else 0
+    in_m, in_pa, length = scale(float(np.ptp(heights)), "m"), scale(pressure, "Pa"), scale(grid.size[axis], "m")
+    x, top = length((np.arange(grid.shape[axis]) + 0.5) * grid.spacing[axis]), float(in_pa(pressure.max()))
+    level, low, high = float(heights.max()), float(in_m(np.ptp(heights))), 0.05 * float(in_m(np.ptp(heights)))
+    in_way, _ = shown.along(ways)
+    made = []
+    with style():
+        for way, row, pressed in zip(ways, heights, pressure, strict=True):
+            figure, buffer = Canvas(figsize=FRAME_SIZE, dpi=dpi), io.BytesIO()
+            FigureCanvasAgg(figure)
+            above, below = figure.subplots(2, sharex=True, gridspec_kw={"hspace": 0.12, "left": 0.15, "top": 0.92})
+            above.plot(x, in_m(heights[0] - level), color="0.7", linewidth=0.8)
+            above.plot(x, in_m(row - level), color=BLUE)
+            below.fill_between(x, in_pa(pressed), color=VERMILLION, alpha=0.6, linewidth=0.0)
+            above.set(ylabel=f"height ({in_m.symbol})", ylim=(-low - high, high))
+            below.set(xlabel=f"{'xy'[axis]} ({length.symbol})", ylabel=f"pressure ({in_pa.symbol})")
+            below.set(xlim=(0.0, float(length(grid.size[axis]))), ylim=(0.0, 1.05 * top or 1.0))
+            of = "cycles" if shown.facts["fretting"] else in_way.symbol
+            above.set_title(f"after {float(in_way(way)):.4g} {of}", loc="left")
+            figure.savefig(buffer, format="png")
+            made.append(buffer.getvalue())
+    return tuple(made)
+
+
+def save_wear(shown: WearPicture, path: str | Path, *, overwrite: bool = False) -> Path:
+    """Write the section as it wears, with its pressure, as an animated picture (.gif, .png or
+    .webp).
+
+    Raises
+    ------
+    InputError
+        If the suffix is another, or there are fewer than two states.
+    OutputError
+        If the file exists and ``overwrite`` is false, or cannot be written.
+    """
+    many = len(np.atleast_1d(shown.array("section_way")))
+    return save_frames(path, lambda: wear_frames(shown), many, pause=PAUSE, overwrite=overwrite)

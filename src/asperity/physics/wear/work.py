@@ -27,7 +27,7 @@ from .law import Sides, WearLaw, of_layers
 from .march import WearSteps, check, worn
 from .part import SCALARS, Wears
 
-SHOWN_WAYS = (0.03, 0.1, 0.3, 0.6, 1.0)
+KEPT_WAYS = (0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0)
 """Shares of the way at which the section is kept, beside that at the start."""
 
 ROWS = 9
@@ -183,16 +183,18 @@ def _worn(ask: Wears, solved: Solved, control: Control, progress: Any) -> WearHi
     given: dict[str, Any] = {"order": table.order}
     if table.tolerance is not None:
         given["tolerance"] = float(table.tolerance)
+    shares: tuple[float, ...] = KEPT_WAYS
     if table.steps is not None:
-        given["number"] = -(-table.steps // len(SHOWN_WAYS))
+        equal = max(number for number in range(1, len(KEPT_WAYS) + 1) if table.steps % number == 0)
+        shares, given["number"] = tuple((n + 1) / equal for n in range(equal)), table.steps // equal
     options["steps"] = WearSteps(**given)
     if ask.fretting:
         size = float(table.shift or 0.0)
         shift = Shift(size * math.cos(ask.direction), size * math.sin(ask.direction))
         options |= {} if table.quarter is None else {"quarter": table.quarter}
-        cycles = sorted({max(1, round(share * (table.cycles or 1))) for share in SHOWN_WAYS})
+        cycles = sorted({max(1, round(share * (table.cycles or 1))) for share in shares})
         return fretted(problem.with_physics(friction=ask.friction), control, shift, cycles, sides, **options)
-    marks = [share * float(table.distance or 0.0) for share in SHOWN_WAYS]
+    marks = [share * float(table.distance or 0.0) for share in shares]
     return worn(problem, control, marks, sides, until_bare=table.until_bare, **options)
 
 
