@@ -22,8 +22,7 @@ from ...core.errors import ConvergenceError, InputError
 from ...core.status import Status
 from .history import QUANTITIES, WearHistory, WearState
 from .law import Sides, WearLaw
-from .losses import Doses
-from .march import At, March, WearSteps, check, too_many
+from .march import REPEATED, At, March, WearSteps, check, too_many
 from .stage import Stretch, implicit_stage
 
 _FIRST_JUMP = 1.0
@@ -204,22 +203,25 @@ class Fretting(March):
             prepared = self.prepared(found, at.prepared)
             after = self.sheared(prepared, at.result.state)
             status = stage.status if not stage.status.converged else after.status
-            misplaced = self.off(state.doses, doses, count * after.dose)
-            factor = self.steps.factor(misplaced)
+            # the trapezoidal rule between the cycles before and after the jump
+            mean = 0.5 * count * (cycle.dose + after.dose)
+            other = losses.each(lambda loss, start: start + mean, state.doses)  # noqa: B023
+            misplaced = losses.apart(doses, other)
+            error = losses.share(state.doses, doses, misplaced, count / (state.cycles + count))
+            factor = self.steps.factor(error)
             if equal is not None or count == 1.0 or not status.converged:
                 break
-            if misplaced <= 2.0 * self.steps.tolerance:
+            if error <= REPEATED * self.steps.tolerance:
                 break
             length = factor * count
-        lost = float((losses.depth(doses) - losses.depth(state.doses)).sum()) * self.problem.grid.pixel_area
-        mean = count * float(slip[touching].mean()) if touching.any() else 0.0
+        slipped = count * float(slip[touching].mean()) if touching.any() else 0.0
         found = replace(
             found,
-            distance=state.distance + mean,
+            distance=state.distance + slipped,
             cycles=state.cycles + count,
             interface=after.result.state,
             length=math.nan if equal is not None else max(1.0, factor * count),
-            misplaced=state.misplaced + misplaced * lost,
+            misplaced=state.misplaced + misplaced,
             breakthrough=min(state.breakthrough, losses.worn_through(state.doses, doses, (state.cycles, count))),
         )
         return At(found, after.result, prepared, status), after
@@ -229,17 +231,6 @@ class Fretting(March):
         problem = prepared.problem.with_physics(friction=None)
         options = {name: value for name, value in self.options.items() if name != "operator"}
         return Prepared(problem, keep=Keep(stiffness=False), operator=prepared.operator, **options)
-
-    def off(self, before: Doses, after: Doses, dose: RealArray) -> float:
-        """Half of the difference between the depths of a jump and those by the ``dose`` (nx, ny) in
-        Pa m of as many of the cycles after it, over the depth lost."""
-        losses = self.losses
-        lost = losses.depth(after) - losses.depth(before)
-        total = float(lost.sum())
-        if total <= 0.0:
-            return 0.0
-        other = losses.each(lambda loss, start: start + dose, before)
-        return 0.5 * float(np.abs(losses.depth(other) - losses.depth(after)).sum()) / total
 
 
 def _hardness(result: ContactResult) -> dict[str, Any]:
