@@ -120,11 +120,11 @@ class WearSettings(Settings):
                 ".track_counter_body must be left out where the body is a track, but both are given: the other of "
                 "both is in contact all the time."
             )
-        for key, law in (("threshold_pressure", "archard"), ("threshold_energy", "energy")):
+        for key, law, unit in (("threshold_pressure", "archard", "Pa"), ("threshold_energy", "energy", "J/m²")):
             if getattr(self, key) and self.law != law:
                 raise InputError(
-                    f".{key} must be left out for the law {self.law}, but is {getattr(self, key):g}; it is that of "
-                    f"{{wear.law={law}}}."
+                    f".{key} must be left out for the law {self.law}, but is {getattr(self, key):g} {unit}; it is "
+                    f"that of {{wear.law={law}}}."
                 )
         return self
 
