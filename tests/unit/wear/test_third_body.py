@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -94,3 +95,13 @@ def test_debris_that_is_stiff_and_stays_little_is_none() -> None:
 def test_what_is_no_third_body_is_refused(make: object, subject: str) -> None:
     with refused(InputError, subject):
         make()  # type: ignore[operator]
+
+
+def test_a_file_holds_the_layer(tmp_path: Path) -> None:
+    problem = replace(rough(), physics=(ThirdBody(np.full((POINTS, POINTS), 1e-8), 1e11),))
+    result = asp.solve(problem, asp.MeanPressure(100e6))
+    asp.save(result, tmp_path / "layer.nc")
+    found = asp.load(tmp_path / "layer.nc")
+    assert np.array_equal(found.third_body.compression, result.third_body.compression)
+    assert np.array_equal(found.problem.physics[0].thickness, problem.physics[0].thickness)
+    assert found.to_xarray()["contact"]["ThirdBody_thickness"].attrs["units"] == "m"
