@@ -219,7 +219,11 @@ ROLES: Mapping[str, str] = MappingProxyType(
 of a limit of the pressure that changes with depth, and what takes over the steps of a prepared
 problem whose bodies relax."""
 
-DESCRIBED = ("physics.hardness.layered:LayeredHardness", "physics.stress.regions:Region")
+DESCRIBED = (
+    "physics.hardness.layered:LayeredHardness",
+    "physics.stress.regions:Region",
+    "physics.wear.third_body:ThirdBody",
+)
 """Types that files describe beside those of the keywords."""
 
 OUTCOMES = (*(name for known in PHYSICS.values() for name in known.absent), "creep")
@@ -233,6 +237,7 @@ ANSWERS = (
     "physics.friction.answer:StickSlip",
     "physics.viscoelastic.moments:Creeping",
     "physics.sealing.coupling:FluidContact",
+    "physics.wear.third_body:CompressedLayer",
 )
 """Where the types of what couplings of this package find stand, for files."""
 

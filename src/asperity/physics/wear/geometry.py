@@ -17,6 +17,7 @@ from ...solids.elastic import Elastic
 from ...solids.layers import Body, Layer, Layered
 from ...surfaces.surface import Surface
 from .losses import Doses
+from .third_body import ThirdBody
 
 REFRESHED = 0.05
 """Change of the mean worn depth, over the thickness of the layers, from which on the compliance is
@@ -72,15 +73,26 @@ def followed(problem: ContactProblem, depths: Doses, pressure: RealArray, now: T
     return Thinned(*found)
 
 
-def worn_problem(problem: ContactProblem, depths: Doses, taken: Thinned, bare: BoolArray | None) -> ContactProblem:
+def worn_problem(
+    problem: ContactProblem,
+    depths: Doses,
+    taken: Thinned,
+    bare: BoolArray | None,
+    debris: ThirdBody | None = None,
+) -> ContactProblem:
     """The virgin ``problem`` with surfaces that have lost ``depths`` (m), layers without what is
-    ``taken`` off them, and the hardness of the base where ``bare``."""
+    ``taken`` off them, the hardness of the base where ``bare``, and ``debris``, which lies on the
+    surface of the body."""
     surface, counter = problem.surface, problem.counter_surface
     if depths.body is not None:
         surface = surface.with_heights(surface.heights - depths.body, "worn")
     if depths.counter is not None:
         whole = counter if isinstance(counter, Surface) else surface.with_heights(0.0 * surface.heights, "flat")
         counter = whole.with_heights(whole.heights - depths.counter, "worn")
+    physics = problem.physics
+    if debris is not None:
+        surface = surface.with_heights(surface.heights + debris.thickness, "debris")
+        physics = (*physics, debris)
     law = problem.law
     if isinstance(law, Hardness) and bare is not None and bare.any():
         hardness = base_hardness(problem)
@@ -93,6 +105,7 @@ def worn_problem(problem: ContactProblem, depths: Doses, taken: Thinned, bare: B
         body=thinned(problem.body, taken.body),
         counter_body=thinned(problem.counter_body, taken.counter),
         law=law,
+        physics=physics,
     )
 
 

@@ -17,6 +17,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...solids.elastic import Elastic
 from ...solids.layers import Body, Layered
+from .third_body import Debris
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,6 +237,9 @@ class Sides:
         points once every so many metres, as a disk under a pin; None where all points slide all the
         time. A track wears alike all along: at each y by the mean along x of the pressure, over the
         share of the track that the contact covers.
+    debris
+        Share of what is worn away that stays in the gap, and its modulus: ``Debris(share,
+        modulus)``; None where all of it leaves.
 
     Raises
     ------
@@ -248,6 +252,7 @@ class Sides:
     counter: WearLaw | None = None
     body_track: float | None = None
     counter_track: float | None = None
+    debris: Debris | None = None
 
     def __post_init__(self) -> None:
         for name in ("body", "counter"):
@@ -266,6 +271,12 @@ class Sides:
             raise InputError(
                 "sides of a contact that wears must hold a law of wear, but hold none. Give body=archard(…)."
             )
+        if self.debris is not None:
+            require.instance(self.debris, Debris, "debris of a contact that wears", "Write Debris(0.5, 10e9).")
+            if self.body_track is not None or self.counter_track is not None:
+                raise InputError(
+                    "debris of a contact that wears must be without a track, which carries it away, but one is given."
+                )
         if self.body_track is not None and self.counter_track is not None:
             raise InputError(
                 "one body at most can be a track, but both are. A point of one of them must be in contact all the time."

@@ -17,8 +17,8 @@ from .law import Sides, WearLaw
 
 @dataclass(frozen=True, eq=False)
 class Linearised:
-    """Depth (m) lost by both bodies under pressures near one: ``start`` + ``bed`` p + ``track``
-    mean_x p, of which the first is (nx, ny) and the others as of ``WearOperator``."""
+    """By how much (m) the gap becomes wider under pressures near one: ``start`` + ``bed`` p +
+    ``track`` mean_x p, of which the first is (nx, ny) and the others as of ``WearOperator``."""
 
     start: RealArray
     bed: float | RealArray
@@ -70,11 +70,12 @@ class Loss:
 @dataclass(frozen=True, eq=False)
 class Losses:
     """Wear of both bodies, prepared once: ``body`` and ``counter``, None for one that does not
-    wear."""
+    wear; ``left`` is the share of the depth that stays in the gap as debris."""
 
     body: Loss | None
     counter: Loss | None
     grid: Grid
+    left: float = 0.0
 
     @classmethod
     def of(cls, sides: Sides, grid: Grid) -> Losses:
@@ -92,7 +93,7 @@ class Losses:
                 )
             share = None if length is None else grid.size[0] / length
             made.append(None if law is None else Loss(law, share))
-        return cls(made[0], made[1], grid)
+        return cls(made[0], made[1], grid, 0.0 if sides.debris is None else sides.debris.share)
 
     def each(self, made: Callable[[Loss, RealArray], RealArray], doses: Doses) -> Doses:
         """``made`` of every loss and its dose."""
@@ -114,6 +115,14 @@ class Losses:
     def depth(self, doses: Doses) -> RealArray:
         """Their sum (nx, ny) in m."""
         return self.depths(doses).total(self.grid)
+
+    def hollow(self, doses: Doses) -> RealArray:
+        """By how much the gap is wider (nx, ny) in m: what is lost less the debris that stays."""
+        return (1.0 - self.left) * self.depth(doses) if self.left else self.depth(doses)
+
+    def debris(self, doses: Doses) -> RealArray | None:
+        """Thickness (nx, ny) in m of the debris that stays; None where none does."""
+        return self.left * self.depth(doses) if self.left else None
 
     def bare(self, doses: Doses) -> BoolArray:
         """(nx, ny), True where all layers of a body are worn through."""
@@ -173,8 +182,8 @@ class Losses:
         return worst
 
     def linearised(self, before: Doses, doses: Doses, pressure: RealArray, slid: float | RealArray) -> Linearised:
-        """Depth lost since ``before`` by a stretch of ``slid`` (m) that begins with ``doses``, near
-        ``pressure`` (nx, ny) in Pa."""
+        """By how much the gap is wider than with ``before`` after a stretch of ``slid`` (m) that
+        begins with ``doses``, near ``pressure`` (nx, ny) in Pa."""
         bed: float | RealArray = 0.0
         track: RealArray | None = None
         start = np.zeros(self.grid.shape)
@@ -194,7 +203,12 @@ class Losses:
                 track = slope
         if isinstance(bed, np.ndarray) and bed.ndim and float(np.ptp(bed)) == 0.0:
             bed = float(bed.flat[0])
-        return Linearised(start, float(bed) if np.ndim(bed) == 0 else bed, track)
+        passes = 1.0 - self.left
+        return Linearised(
+            passes * start if self.left else start,
+            passes * float(bed) if np.ndim(bed) == 0 else passes * np.asarray(bed),
+            None if track is None else passes * track,
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,6 +24,7 @@ from .history import QUANTITIES, WearHistory, WearState
 from .law import Sides, WearLaw
 from .losses import Doses, Losses
 from .stage import Stage, Stretch, implicit_stage
+from .third_body import ThirdBody
 
 _GAMMA = 1.0 - math.sqrt(0.5)
 """Share of a step that each stretch of the second-order method takes (Alexander 1977): positive
@@ -247,7 +248,9 @@ class March:
         """The contact of the surfaces at ``state``, with the operator of one ``like`` it, if its
         bodies are the same."""
         bare = self.losses.bare(state.doses) if self.layered else None
-        problem = worn_problem(self.problem, self.losses.depths(state.doses), state.taken, bare)
+        left, debris = self.losses.debris(state.doses), self.sides.debris
+        layer = None if left is None or debris is None or not left.any() else ThirdBody(left, debris.modulus)
+        problem = worn_problem(self.problem, self.losses.depths(state.doses), state.taken, bare, layer)
         same = like is not None and like.operator.compliance == problem.compliance
         options = {**self.options, "operator": like.operator} if like is not None and same else self.options
         return Prepared(problem, keep=Keep(stiffness=False), **options)

@@ -94,7 +94,7 @@ def implicit_stage(
         pairs += own.applications * operator.pairs_per_application + own.extra_pairs
         pressure = found.pressure
         worn = model.depth(pressure) - model.start
-        wanted = losses.depth(losses.after(stretch.doses, pressure, slid)) - losses.depth(stretch.before)
+        wanted = losses.hollow(losses.after(stretch.doses, pressure, slid)) - losses.hollow(stretch.before)
         miss = float(np.abs(wanted - worn - model.start).max())
         enough = _AGREES * max(float(np.abs(wanted).max()), _AGREES * scale)
         status = settled.status
@@ -140,10 +140,10 @@ def _chords(model: Linearised, losses: Losses, stretch: Stretch, pressure: RealA
     """``model`` with the slope between two pressures where they are in different stages."""
     if model.track is not None:
         return model
-    depths = [losses.depth(losses.after(stretch.doses, p, stretch.slid)) for p in (pressure, other)]
+    depths = [losses.hollow(losses.after(stretch.doses, p, stretch.slid)) for p in (pressure, other)]
     apart = pressure - other
     moved = np.abs(apart) > 1e-12 * float(pressure.max())
     chord = np.where(moved, (depths[0] - depths[1]) / np.where(moved, apart, 1.0), 0.0)
     bed = np.where(moved, np.maximum(chord, 0.0), np.broadcast_to(model.bed, pressure.shape))
-    start = depths[0] - losses.depth(stretch.before) - bed * pressure
+    start = depths[0] - losses.hollow(stretch.before) - bed * pressure
     return Linearised(start, bed, None)
