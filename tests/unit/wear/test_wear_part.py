@@ -168,6 +168,18 @@ def test_the_load_of_a_path_that_wears() -> None:
     assert largest == pytest.approx(4.0 * last, rel=1e-4)
 
 
+def test_debris_stays() -> None:
+    """The gap opens by what does not stay, while the bodies lose as much as before."""
+    plain, left = (
+        asp.run(WEARING | {"wear": {"distance": "0.1 m", "tolerance": "5 %"} | more})
+        for more in ({}, {"debris": "50 %", "debris_modulus": "100 GPa"})
+    )
+    assert left.values["wear_volume"] == pytest.approx(plain.values["wear_volume"], rel=1e-6)
+    virgin = plain.solved.problem.profile()
+    taken = [virgin - outcome.found["wear"].values["worn_heights"] for outcome in (plain, left)]
+    assert taken[1].sum() == pytest.approx(0.5 * taken[0].sum(), rel=1e-6)
+
+
 REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "no coefficient": ({"body": "DLC:40nm/bearing steel"}, "wear coefficient"),
     "no coefficient of the base": (
@@ -204,6 +216,11 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
         "wear.coefficient_counter_body",
     ),
     "coefficient of a length": ({"wear": {"distance": "1 m", "coefficient_body": "1 mm"}}, "wear.coefficient_body"),
+    "debris without its modulus": ({"wear": {"distance": "1 m", "debris": "20 %"}}, "wear.debris_modulus"),
+    "debris on a track": (
+        {"wear": {"distance": "1 m", "debris": "20 %", "debris_modulus": "1 GPa", "track_body": "1 m"}},
+        "wear.debris",
+    ),
     "step beyond the load": ({"wear": {"distance": "1 m", "step": 3}}, "wear.step"),
     "beside a shift": ({"friction": {"coefficient": 0.3}, "shear": {"shift": "1 nm"}}, "wear"),
     "adhesion": (

@@ -12,7 +12,7 @@ from pydantic import model_validator
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.values import Choice, Count, Length, Number, StepOfPath, WearCoefficient, Whole
+from ...core.values import Choice, Count, Length, Number, Pressure, StepOfPath, WearCoefficient, Whole
 from ...parts.part import Part
 from ..friction.part import friction_law
 
@@ -25,6 +25,7 @@ Which = Annotated[str, Choice({name: name for name in WORDS})]
 Law = Annotated[str, Choice({name: name for name in ("archard", "energy")})]
 ThresholdPressure = Annotated[float, Number("pressure", least=0.0)]
 ThresholdEnergy = Annotated[float, Number("J/m^2", least=0.0)]
+DebrisShare = Annotated[float, Number("number", least=0.0, below=1.0, percent=True)]
 Tolerance = Annotated[float, Number("number", above=0.0, below=1.0, percent=True)]
 
 SLIDING_ALONE = ("track_body", "track_counter_body", "until_bare")
@@ -68,6 +69,12 @@ class WearSettings(Settings):
     )
     track_counter_body: Length | None = setting(
         None, option="--track-counter-body", help="The same of the counter body"
+    )
+    debris: DebrisShare | None = setting(
+        None, option="--debris", help="Share of the worn volume that stays in the gap where it is worn off: 20%"
+    )
+    debris_modulus: Pressure | None = setting(
+        None, option="--debris-modulus", help="Of the debris in compression across its layer: 1GPa"
     )
     until_bare: bool = setting(
         False, option="--until-bare", help="Stop where a coating is first worn through, at the latest after the way"
@@ -120,6 +127,14 @@ class WearSettings(Settings):
                 ".track_counter_body must be left out where the body is a track, but both are given: the other of "
                 "both is in contact all the time."
             )
+        if bool(self.debris) != (self.debris_modulus is not None):
+            missing, other = ("debris", "debris_modulus") if not self.debris else ("debris_modulus", "debris")
+            raise InputError(
+                f".{missing} must be given together with {other}, but is not. Give both {{wear.debris=20%}} and "
+                "{wear.debris_modulus=1GPa}, or neither: debris then leaves the contact."
+            )
+        if self.debris and (self.track_body is not None or self.track_counter_body is not None):
+            raise InputError(f".debris must be left out along a track, which carries it away, but is {self.debris:g}.")
         for key, law, unit in (("threshold_pressure", "archard", "Pa"), ("threshold_energy", "energy", "J/m²")):
             if getattr(self, key) and self.law != law:
                 raise InputError(

@@ -26,6 +26,7 @@ from .history import WearHistory
 from .law import Sides, WearLaw, of_layers
 from .march import WearSteps, check, worn
 from .part import SCALARS, Wears
+from .third_body import Debris
 
 KEPT_WAYS = (0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0)
 """Shares of the way at which the section is kept, beside that at the start."""
@@ -64,6 +65,7 @@ class WearWork(WithFacts):
         facts = {
             "where": reached.where,
             "fretting": ask.fretting,
+            "debris": float(table.debris or 0.0),
             "shift": None if table.shift is None else float(table.shift),
             "law": table.law,
             "wears": [name for name in ("body", "counter") if getattr(sides, name) is not None],
@@ -106,6 +108,7 @@ class WearWork(WithFacts):
         ]
         rows += [("runs along a track", names[name]) for name in facts["tracks"]]
         rows += [("moves to and fro by", show(facts["shift"], "m"))] if facts["fretting"] else []
+        rows += [("debris that stays", percent(facts["debris"]))] if facts["debris"] else []
         for item in SCALARS:
             value = float(values.get(item.name, math.nan))
             if math.isfinite(value):
@@ -113,7 +116,8 @@ class WearWork(WithFacts):
         holds, alarming = _holds(values, facts)
         headline = [("worn volume", show(volume, "m**3", 3)), ("largest worn depth", show(depth, "m", 3))]
         tables = (("Course of the wear", _course_table(values, facts)),)
-        return Words(sentence, headline, rows, tables, (REMARK,), alarming, holds)
+        remarks = (REMARK,) if facts["debris"] else (REMARK, GONE)
+        return Words(sentence, headline, rows, tables, remarks, alarming, holds)
 
 
 # Who wears, and by which law.
@@ -152,7 +156,8 @@ def sides_of(ask: Wears, problem: ContactProblem) -> Sides:
                 f"wear.track_{name} must be left out where the {name.replace('_', ' ')} does not wear, but is given. "
                 f"Give its coefficient ({{wear.coefficient_{name}=1e-6mm^3/Nm}})."
             )
-    return Sides(laws["body"], laws["counter_body"], *tracks)
+    left = None if not table.debris else Debris(float(table.debris), float(table.debris_modulus or 0.0))
+    return Sides(laws["body"], laws["counter_body"], tracks[0], tracks[1], left)
 
 
 def _some_known(body: Body) -> bool:
@@ -289,9 +294,12 @@ def _section(history: WearHistory, *, across: bool) -> dict[str, Any]:
 
 REMARK = (
     "Wear coefficients hold for the pair, the lubrication and the severity of the test that they come from; they "
-    "scatter by factors. Worn debris leaves the contact."
+    "scatter by factors."
 )
 """What the numbers are."""
+
+GONE = "Debris leaves the contact."
+"""What becomes of it where none is asked for."""
 
 
 def way_text(values: Mapping[str, Any], facts: Mapping[str, Any]) -> str:
