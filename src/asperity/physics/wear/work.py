@@ -111,7 +111,7 @@ class WearWork(WithFacts):
         rows += [("debris that stays", percent(facts["debris"]))] if facts["debris"] else []
         for item in SCALARS:
             value = float(values.get(item.name, math.nan))
-            if math.isfinite(value):
+            if math.isfinite(value) and not _idle(item.name, facts):
                 rows.append((item.label, value_text(item, value)))
         holds, alarming = _holds(values, facts)
         headline = [("worn volume", show(volume, "m**3", 3)), ("largest worn depth", show(depth, "m", 3))]
@@ -341,6 +341,16 @@ def _holds(values: Mapping[str, Any], facts: Mapping[str, Any]) -> tuple[str, bo
             else f"Stays within the allowed depth: {depth} of {allowed} are gone after {way_text(values, facts)}."
         )
     return " ".join(texts), alarming
+
+
+def _idle(name: str, facts: Mapping[str, Any]) -> bool:
+    """Whether the number of that ``name`` is of a body that does not wear, or of a coating that is
+    not there."""
+    alone = len(facts["wears"]) == 1
+    coating = ("wear_bare_fraction", "wear_unevenness", "wear_compliance_error")
+    return (alone and name.startswith(("wear_body_", "wear_counter_body_"))) or (
+        not facts["thickness"] and name in coating
+    )
 
 
 def _course_table(values: Mapping[str, Any], facts: Mapping[str, Any]) -> Table:
