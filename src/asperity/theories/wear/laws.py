@@ -56,10 +56,11 @@ class ArchardWear(Theory):
     """A constant area A under the load P, with a coating of thickness t and coefficient k1 above
     the body, whose coefficient is k:
 
-        V = k P s,  depth = k p s,  p = P/A,
-        depth = k1 p s until s_b = t/(k1 p),  then t + k p (s - s_b).
+        V = k P s,  w = V/A = k p s,  p = P/A,
+        w = k_1 p s if s < s_b,  w = t + k p (s - s_b) if s > s_b,  s_b = t/(k_1 p)
 
-    Without a coating t = 0. The distance s_b to break-through is the life of the coating.
+    with the worn depth w. Without a coating t = 0. The distance s_b to break-through is the life of
+    the coating.
 
     Examples
     --------
@@ -187,10 +188,10 @@ class CompositeAnswer(Tabled):
 
 @dataclass(frozen=True)
 class WornComposite(Theory):
-    """A surface of two materials on the fractions f1 and f2 of its area, worn until both wear at
+    """A surface of two materials on the fractions f_1 and f_2 of its area, worn until both wear at
     one rate:
 
-        p1 k1 = p2 k2,  p_i = p̄ (1/k_i)/(f1/k1 + f2/k2),  k = 1/(f1/k1 + f2/k2).
+        p_1 k_1 = p_2 k_2,  k = 1/(f_1/k_1 + f_2/k_2),  p_i = p̄ k/k_i.
 
     Examples
     --------

@@ -200,12 +200,12 @@ _ROUND_TRACK = Bound(
 @dataclass(frozen=True)
 class PinOnDisk(Theory):
     """A pin with a spherical end on a disk: the pin is always in contact, a point of the track once
-    a turn. With the volumes
+    a turn.
 
         V_p = k_p P s,  V_d = k_d P s
 
-    the end of the pin loses a cap, V_p = π h² (3R - h)/3, and the track of radius r_t gets the
-    section of the pin, with its width w,
+    With these volumes the end of the pin loses a cap, V_p = π h² (3R - h)/3, and the track of
+    radius r_t gets the section of the pin, with its width w,
 
         V_d = 2 π r_t [R² arcsin(w/2R) - (w/4) sqrt(4R² - w²)] ≈ π r_t w³/(6 R).
 

@@ -47,17 +47,17 @@ class _Wave(Theory):
 
     @property
     def compliance(self) -> float:
-        """ĉ in m/Pa."""
+        """C in m/Pa."""
         raise NotImplementedError
 
     @property
     def decay_distance(self) -> float:
-        """ĉ/k in m."""
+        """C/k in m."""
         return self.compliance / self.coefficient
 
     @property
     def explicit_limit(self) -> float:
-        """2 ĉ/k in m."""
+        """2 C/k in m."""
         return 2.0 * self.decay_distance
 
     def at_distance(self, distance: ArrayLike) -> DecayAnswer:
@@ -71,10 +71,10 @@ class WearingWave(_Wave):
     """A wave of the profile and of the pressure in full contact with a homogeneous half-space,
     while its crests wear more than its valleys:
 
-        p(s) = p(0) exp(-k s/ĉ),  ĉ = 2/(E* q) = λ/(π E*).
+        p(s) = p(0) exp(-k s/C),  C = 2/(E* q) = λ/(π E*),  q = 2π/λ.
 
-    One implicit (backward Euler) step Δs leaves 1/(1 + k Δs/ĉ) of it, an explicit one 1 - k Δs/ĉ,
-    which grows from sign to sign for k Δs > 2 ĉ.
+    One implicit (backward Euler) step Δs leaves 1/(1 + k Δs/C) of it, an explicit one 1 - k Δs/C,
+    which grows from sign to sign for k Δs > 2 C.
 
     Examples
     --------
@@ -104,7 +104,7 @@ class WearingCoatedWave(_Wave):
     """A wave in full contact with a coating (1) of thickness h bonded to a half-space (2), while
     much less than the coating is worn:
 
-        p(s) = p(0) exp(-k s/ĉ),  ĉ = 2 [1 + M(q)]/(E1* q),  E1* = E1/(1 - ν1²).
+        p(s) = p(0) exp(-k s/C),  C = 2 [1 + M(q)]/(E1* q),  E1* = E1/(1 - ν1²).
 
     With ξ = q h, μ = G1/G2, κ = (μ - 1)/(μ + 3 - 4ν1) and λ = 1 - 4(1 - ν1)/[1 + μ(3 - 4ν2)]
     (O'Sullivan & King 1988)
@@ -198,17 +198,18 @@ class PunchAnswer(Tabled):
 
 @dataclass(frozen=True)
 class WearingPunch(Theory):
-    """A flat round punch of radius a whose end wears from flat until the pressure is uniform. What
-    deviates from it falls in modes,
+    """A flat round punch of radius a whose end wears from flat until the pressure is uniform.
+
+    What deviates from it falls in modes,
 
         p = p̄ + Σ p_n(r) exp(-s_n k E* s/a),  s_n = 2.0606, 3.6710, 5.2585, 6.8386, …
 
-    with λ_n = 1/s_n the eigenvalues of the compliance on pressures without load,
+    with the displacements u_n by p_n, up to a constant, and no load in any mode:
 
-        λ p_n(r) = (E*/a) ∫ p_n(r') u(r, r') dr' + const,  ∫ p_n r dr = 0.
+        p_n(r) = s_n (E*/a) u_n(r) + c_n,  ∫ p_n(r) r dr = 0.
 
-    In Legendre polynomials of 1 - 2r²/a² their matrix is closed. The centre starts at half of the
-    mean pressure, that of a rigid flat punch.
+    In Legendre polynomials of 1 - 2r²/a² the matrix of their work is closed. The centre starts at
+    half of the mean pressure, that of a rigid flat punch.
 
     Examples
     --------

@@ -76,16 +76,14 @@ _MEAN = Quantity("mean_pressure", "Pa", "load over contact area")
 class WearingSphere(Theory):
     """A sphere, such as the end of a pin, that alone wears from Hertz's contact of radius a_H:
 
-        a⁴ = a_H⁴ + 4 R k P s/π  at first,
-        a⁴ - 64/(9π²) a_H³ a = 4 R k P s/π  under uniform pressure.
+        a_1⁴ = a_H⁴ + 4 R k P s/π,  a_2⁴ - 64/(9π²) a_H³ a_2 = 4 R k P s/π,
+        w_1 = 3 (a_1² - a_H²)/(4 R),  w_2 = (a_2² - 0.6169 a_H³/a_2)/(2 R).
 
-    The larger radius holds. The depth at the centre is the smaller one of both,
-
-        w = 3 (a² - a_H²)/(4 R),  w = [a² - 0.6169 a_H³/a]/(2 R),
-
-    by Hertz's largest pressure, 1.5 times the mean one, and by the elastic displacements under
-    uniform pressure. Against a solution in rings the radius is within 2.5 %, the depth within 3 %
-    at all distances, both within 0.5 % from a = 2 a_H on.
+    The first radius and depth at the centre are those of the start, when the largest pressure is
+    that of Hertz, 1.5 times the mean one; the second are those of uniform pressure and the elastic
+    displacements under it. The larger radius holds, and the smaller depth. Against a solution in
+    rings the radius is within 2.5 %, the depth within 3.5 % at all distances, and both are within
+    1 % from twice Hertz's radius on.
 
     Examples
     --------
@@ -152,8 +150,8 @@ class WearingCoatedSphere(Theory):
     """A sphere with a coating of thickness t, worn through at the centre: a ring of coating (1)
     stays around a core of substrate (2), and all of the contact wears at one rate.
 
-        p1 k1 = p2 k2,  π (a² - b²) = 2 π R t,
-        2 π R t y/k1 + π R y²/k2 = P (s - s_b),  b² = 2 R y,
+        p_1 k_1 = p_2 k_2,  a² - b² = 2 R t,  b² = 2 R y,
+        2 π R t y/k_1 + π R y²/k_2 = P (s - s_b)
 
     with the core of radius b worn by y since the break-through at s_b. The area of the ring between
     two concentric spheres is π (2 R t - t²), whatever the depth. Until then, and for the elastic
