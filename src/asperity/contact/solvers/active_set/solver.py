@@ -503,7 +503,8 @@ class ActiveSet(Iterative):
             _MARGIN * self.tolerance / error if error > 0.0 else 1.0
         )  # reduction of the error that reaches the tolerance
         alone = memory.unsuccessful is None and not memory.fallbacks
-        ends = not (self.monotone or self._guess)  # the last step may be one whose length is not measured
+        # the last step may be one whose length is not measured, where the model has the right size
+        ends = not (self.monotone or self._guess) and memory.work.qp.operator.translation_invariant
         if ends and wanted >= _SINGLE and (settled or alone):
             return _LAST if wanted >= _CLOSELY else _LAST_CLOSELY
         if alone:

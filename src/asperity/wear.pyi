@@ -1,0 +1,17 @@
+from .physics.wear.fretting import fretted
+from .physics.wear.history import WearHistory, WearState
+from .physics.wear.law import Sides, WearLaw, archard, dissipated_energy, of_layers
+from .physics.wear.march import WearSteps, worn
+
+__all__ = [
+    "Sides",
+    "WearHistory",
+    "WearLaw",
+    "WearState",
+    "WearSteps",
+    "archard",
+    "dissipated_energy",
+    "fretted",
+    "of_layers",
+    "worn",
+]
