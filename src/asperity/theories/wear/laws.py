@@ -148,7 +148,7 @@ class DissipatedEnergyWear(Theory):
     ways: ClassVar[tuple[Way, ...]] = (
         Way(asked("energy", "J", "dissipated energy E_d"), "at_energy", (Quantity("volume", "m^3", "worn volume"),)),
         Way(
-            asked("cycles", "1", "number N of cycles of gross slip"),
+            asked("cycles", "", "number N of cycles of gross slip"),
             "at_cycles",
             (Quantity("energy", "J", "dissipated energy"), Quantity("volume", "m^3", "worn volume")),
             (asked("load", "N", "normal force"), asked("amplitude", "m", "amplitude δ of the slip")),

@@ -141,7 +141,8 @@ WORN_FAR = Bound(
     3.0,
     math.inf,
     "Goryacheva1998",
-    "The pressure is still that of the unworn sphere in part; after break-through the depth errs by up to a tenth.",
+    "The pressure is still that of the unworn sphere in part: after break-through the depth is up to a tenth low.",
+    ("depth",),
 )
 
 
