@@ -2,8 +2,10 @@ from .physics.wear.fretting import fretted
 from .physics.wear.history import WearHistory, WearState
 from .physics.wear.law import Sides, WearLaw, archard, dissipated_energy, of_layers
 from .physics.wear.march import WearSteps, worn
+from .physics.wear.rolled import RollingWear, rolled
 
 __all__ = [
+    "RollingWear",
     "Sides",
     "WearHistory",
     "WearLaw",
@@ -13,5 +15,6 @@ __all__ = [
     "dissipated_energy",
     "fretted",
     "of_layers",
+    "rolled",
     "worn",
 ]

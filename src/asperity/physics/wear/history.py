@@ -70,6 +70,8 @@ class WearState:
         infinite before.
     last
         Length of the last step, in which pressures are extrapolated; NaN where there is none.
+    contact
+        The contact there; solved again where it is None.
     """
 
     distance: float
@@ -82,6 +84,7 @@ class WearState:
     carried: float = 0.0
     breakthrough: float = math.inf
     last: float = math.nan
+    contact: ContactResult | None = field(default=None, repr=False)
 
 
 @dataclass(frozen=True, eq=False)

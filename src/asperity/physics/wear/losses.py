@@ -10,6 +10,7 @@ import numpy as np
 
 from ...core import require
 from ...core.arrays import BoolArray, RealArray
+from ...core.errors import InputError
 from ...core.grid import Grid
 from .law import Sides, WearLaw
 
@@ -84,9 +85,11 @@ class Losses:
             law, length = getattr(sides, name), getattr(sides, f"{name}_track")
             if law is not None and isinstance(law.factor, np.ndarray):
                 require.field(law.factor, f"factor on the wear coefficient of the {name}", grid.shape)
-            if length is not None:
-                least = grid.size[0]
-                require.within(length, least, np.inf, f"length of the track of the {name} (m)")
+            if length is not None and length < grid.size[0] * (1.0 - 1e-9):
+                raise InputError(
+                    f"length of the track of the {name} (m) must be at least that of the area along x, "
+                    f"{grid.size[0]:g}, but is {length:g}."
+                )
             share = None if length is None else grid.size[0] / length
             made.append(None if law is None else Loss(law, share))
         return cls(made[0], made[1], grid)
@@ -144,6 +147,17 @@ class Losses:
             else:
                 found.append(float(depth.mean()) * self.grid.area / (1.0 if loss.share is None else loss.share))
         return found[0], found[1]
+
+    def apart(self, doses: Doses, others: Doses) -> float:
+        """Volume (m³) by which the depths after two ``doses`` differ, of either sign."""
+        return float(np.abs(self.depth(doses) - self.depth(others)).sum()) * self.grid.pixel_area
+
+    def share(self, before: Doses, after: Doses, misplaced: float, part: float) -> float:
+        """Volume (m³) that is ``misplaced`` in a step over what the step takes, or, where that is
+        more, what it would at the mean rate so far, being this ``part`` of the course."""
+        total = float(self.depth(after).sum()) * self.grid.pixel_area
+        lost = max(total - float(self.depth(before).sum()) * self.grid.pixel_area, part * total)
+        return misplaced / lost if lost > 0.0 else 0.0
 
     def imbalance(self, doses: Doses, carried: float) -> float:
         """Sum of the ``doses`` less ``carried`` (N m), force times distance, relative, the larger

@@ -16,7 +16,6 @@ from ...contact.result import ContactResult
 from ...contact.solve import Keep, Prepared
 from ...contact.state import InterfaceState
 from ...core import require
-from ...core.arrays import RealArray
 from ...core.errors import ConvergenceError, InputError
 from ...core.status import Outcome, Status
 from ...solids.layers import relaxes
@@ -42,7 +41,7 @@ _SAFE, _SHORTER, _LONGER = 0.9, 0.2, 2.5
 """Share of the length that the tolerance allows, and the smallest and largest factor from step to
 step."""
 
-_REPEATED = 2.0
+REPEATED = 2.0
 """Error over the tolerance from which on a step is repeated with a smaller length."""
 
 _FIRST = 1e-4
@@ -64,7 +63,7 @@ class WearSteps:
     Parameters
     ----------
     tolerance
-        Share of the worn volume that a step may put at the wrong place; lengths follow from it.
+        Share of the worn volume that steps may put at the wrong place; lengths follow from it.
     number
         Number of equal steps up to each distance that is asked for instead; None for steps by their
         error.
@@ -98,8 +97,10 @@ class WearSteps:
             raise InputError(f"order of the steps of wear must be 1 or 2, but is {self.order!r}.")
         require.one_of(self.method, ("implicit", "explicit"), "method of the steps of wear")
         require.integer(self.most, 1, "largest number of steps of wear")
-        if self.method == "explicit" and self.order == 2:
-            raise InputError("order of explicit steps of wear must be 1, but is 2. Use the implicit method.")
+        if self.method == "explicit" and (self.order == 2 or self.number is None):
+            raise InputError(
+                "explicit steps of wear must be of order 1 and of a given number, but are not. Use the implicit method."
+            )
 
     def factor(self, error: float) -> float:
         """Length of the next step, or of the same one again, over the last, after one with this
@@ -220,8 +221,8 @@ class At(NamedTuple):
 
 
 class Tried(NamedTuple):
-    """A step that was tried: ``doses`` after it, the contact then with what prepared it, the share
-    of its volume that is ``misplaced``, and how its contacts ended."""
+    """A step that was tried: ``doses`` after it, the contact then with what prepared it, the volume
+    (m³) that is ``misplaced``, and how its contacts ended."""
 
     doses: Doses
     result: ContactResult
@@ -268,7 +269,7 @@ class March:
             state = WearState(0.0, math.nan, self.losses.virgin(), InterfaceState(none))
         state.interface.require_shape(self.problem.grid.shape)
         prepared = self.prepared(state)
-        result = self.solved(prepared, state.interface)
+        result = state.contact or self.solved(prepared, state.interface)
         going = state.interface.pressure.any()
         return At(state if going else replace(state, interface=result.state), result, prepared, result.status)
 
@@ -282,7 +283,7 @@ class March:
             equal = None if number is None else (mark - at.state.distance) / number
             while not ended and at.status.converged and mark - at.state.distance > _ROUNDING * mark:
                 if taken == self.steps.most:
-                    at = at._replace(status=_too_many(at.state.distance, marks[-1], taken))
+                    at = at._replace(status=too_many("the sliding distance (m)", at.state.distance, marks[-1], taken))
                     break
                 at, taken = self.advanced(at, mark, equal), taken + 1
                 self.record(values, at)
@@ -301,10 +302,11 @@ class March:
         while True:
             slid = left if length > left * (1.0 - _ROUNDING) else length
             tried = self.tried(at, slid)
-            factor = self.steps.factor(tried.misplaced)
+            error = self.losses.share(at.state.doses, tried.doses, tried.misplaced, slid / (at.state.distance + slid))
+            factor = self.steps.factor(error)
             if equal is not None or not tried.status.converged:
                 break
-            if tried.misplaced <= _REPEATED * self.steps.tolerance or slid < _ROUNDING * mark:
+            if error <= REPEATED * self.steps.tolerance or slid < _ROUNDING * mark:
                 break
             length = factor * slid
         # a step that was cut to end at the mark does not tell how long the next one may be
@@ -320,7 +322,6 @@ class March:
     def tried(self, at: At, slid: float) -> Tried:
         """A step of ``slid`` (m) from ``at``."""
         doses, losses, interface = at.state.doses, self.losses, at.state.interface
-        before = losses.depth(doses)
         plainly = losses.after(doses, at.result.pressure, slid)
         if self.steps.method == "explicit":
             return self.checked(at, plainly, interface, 0.0, at.status)
@@ -328,10 +329,8 @@ class March:
         if self.steps.order == 1:
             stage = self.stage(at.prepared, interface, Stretch(doses, doses, slid), ahead)
             found = losses.after(doses, stage.pressure, slid)
-            off = 0.5 * (losses.depth(found) - losses.depth(plainly))
-            return self.checked(
-                at, found, _from(stage, interface), _share(off, losses.depth(found) - before), stage.status
-            )
+            off = 0.5 * losses.apart(found, plainly)
+            return self.checked(at, found, _from(stage, interface), off, stage.status)
         part = _GAMMA * slid
         first = self.stage(
             at.prepared, interface, Stretch(doses, doses, part), None if ahead is None else _GAMMA * ahead
@@ -341,11 +340,9 @@ class March:
         found, exact = losses.after(middle, stage.pressure, part), doses
         for weight, pressure in zip(_QUADRATURE, (at.result.pressure, first.pressure, stage.pressure), strict=True):
             exact = losses.after(exact, pressure, weight * slid)
-        lost = losses.depth(found) - before
-        rough = _ROUGH * _share(losses.depth(found) - losses.depth(plainly), lost)
-        misplaced = max(_share(losses.depth(found) - losses.depth(exact), lost), rough)
+        off = max(losses.apart(found, exact), _ROUGH * losses.apart(found, plainly))
         status = stage.status if first.status.converged else first.status
-        return self.checked(at, found, _from(stage, interface), misplaced, status)
+        return self.checked(at, found, _from(stage, interface), off, status)
 
     def stage(self, prepared: Prepared, interface: InterfaceState, stretch: Stretch, ahead: float | None) -> Stage:
         """Contact at the end of ``stretch``, with its work counted."""
@@ -363,14 +360,13 @@ class March:
     def after(self, at: At, tried: Tried, slid: float, length: float) -> At:
         """After a step that was ``tried`` and stands."""
         losses, state, result = self.losses, at.state, tried.result
-        lost = float((losses.depth(tried.doses) - losses.depth(state.doses)).sum()) * self.problem.grid.pixel_area
         found = replace(
             state,
             distance=state.distance + slid,
             doses=tried.doses,
             interface=replace(result.state, earlier=at.result.pressure, deflections=_both(at.result, result)),
             length=length,
-            misplaced=state.misplaced + tried.misplaced * lost,
+            misplaced=state.misplaced + tried.misplaced,
             carried=state.carried + result.force * slid,
             breakthrough=min(state.breakthrough, losses.worn_through(state.doses, tried.doses, (state.distance, slid))),
             last=slid,
@@ -434,19 +430,14 @@ class March:
             fft_pairs=self.pairs,
             status=at.status,
             kept=tuple(kept),
-            state=state,
+            state=replace(state, contact=at.result),
         )
 
 
-def _too_many(distance: float, whole: float, taken: int) -> Status:
-    message = f"Not converged: {taken} steps of wear have come to {distance:g} m of {whole:g} m."
+def too_many(what: str, reached: float, whole: float, taken: int) -> Status:
+    """That ``taken`` steps have only ``reached`` a part of the ``whole``, in m or another unit."""
+    message = f"Not converged: {taken} steps of wear have come to {what} {reached:g} of {whole:g}."
     return Status(Outcome.ITERATION_LIMIT, message, "Allow more steps, or a larger tolerance ({wear.tolerance}).")
-
-
-def _share(off: RealArray, lost: RealArray) -> float:
-    """Sum of the depths that are ``off`` over the sum of what was ``lost``."""
-    total = float(lost.sum())
-    return float(np.abs(off).sum()) / total if total > 0.0 else 0.0
 
 
 def _from(stage: Stage, interface: InterfaceState) -> InterfaceState:
