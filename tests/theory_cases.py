@@ -188,6 +188,7 @@ EXAMPLES = {
         "substrate_coefficient": 1e-14,
         "thickness": 1e-6,
     },
+    "wearing-cylinder": {"E_star": 1e11, "radius": 6e-3, "load": 2e4, "coefficient": 1e-15},
     "wearing-punch": {"E_star": 1e11, "radius": 1e-3, "coefficient": 1e-15},
     "wearing-wave": {"E_star": 1e11, "wavelength": 1e-5, "coefficient": 1e-15},
     "wearing-coated-wave": {

@@ -57,6 +57,13 @@ def unworn(distance: float) -> float:
     return max(apart(sphere.radius, hertz.radius), apart(sphere.mean_pressure, hertz.mean_pressure))
 
 
+def unworn_cylinder(distance: float) -> float:
+    """Half-width and mean pressure."""
+    cylinder = make("wearing-cylinder", E, R, 2e4, K).at_distance(distance)
+    hertz = make("hertz-line", E, R).at_load(2e4)
+    return max(apart(cylinder.half_width, hertz.radius), apart(cylinder.mean_pressure, hertz.mean_pressure))
+
+
 def sphere_on_rings(distance: float) -> float:
     """Depth at the centre."""
     theory = make("wearing-sphere", E, R, LOAD, K).at_distance(distance)
@@ -157,6 +164,15 @@ WEAR = (
         (1.0, 10.0, 100.0),
         5e-4,
         "the pressure becomes uniform; 150 rings, backward Euler steps",
+    ),
+    Agreement(
+        "wearing-cylinder",
+        "hertz-line",
+        "distance to zero",
+        unworn_cylinder,
+        (1e-2, 1e-4, 1e-6),
+        1e-5,
+        "the width grows in proportion to the distance",
     ),
     Agreement(
         "wearing-coated-sphere",

@@ -152,7 +152,7 @@ from .subsurface.sliding_yield import CylinderYield, SphereYield, YieldOnset, cy
 from .wear.laws import ArchardWear, DissipatedEnergyWear, WornComposite, wear_coefficient
 from .wear.pins import PinOnDisk, WornCap, track_section
 from .wear.running_in import WearingCoatedWave, WearingPunch, WearingWave, punch_rates
-from .wear.spheres import WearingCoatedSphere, WearingSphere
+from .wear.spheres import WearingCoatedSphere, WearingCylinder, WearingSphere
 from .wet.meniscus import MeniscusGrowth
 from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
 from .wet.summits import GrowingMenisci, KineticMeniscus, StatisticalMeniscus, WetSummits
@@ -328,6 +328,7 @@ __all__ = [
     "WaveFactors",
     "WearingCoatedSphere",
     "WearingCoatedWave",
+    "WearingCylinder",
     "WearingPunch",
     "WearingSphere",
     "WearingWave",

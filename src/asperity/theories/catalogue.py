@@ -69,7 +69,7 @@ from .subsurface.sliding_yield import CylinderYield, SphereYield
 from .wear.laws import ArchardWear, DissipatedEnergyWear, WornComposite
 from .wear.pins import PinOnDisk, WornCap
 from .wear.running_in import WearingCoatedWave, WearingPunch, WearingWave
-from .wear.spheres import WearingCoatedSphere, WearingSphere
+from .wear.spheres import WearingCoatedSphere, WearingCylinder, WearingSphere
 from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
 from .wet.summits import GrowingMenisci, WetSummits
 
@@ -185,6 +185,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             PinOnDisk,
             WearingSphere,
             WearingCoatedSphere,
+            WearingCylinder,
             WearingPunch,
             WearingWave,
             WearingCoatedWave,

@@ -10,13 +10,18 @@ from reference_data import Row, every_row, reference
 from refusals import refused
 from worn_rings import Coating, Rings, WornProfile, worn, worn_sphere
 
+import asperity as asp
 from asperity.core.errors import InputError
+from asperity.physics.wear.law import archard
+from asperity.physics.wear.march import WearSteps
+from asperity.physics.wear.march import worn as worn_by_solver
 from asperity.theories import (
     ArchardWear,
     DissipatedEnergyWear,
     PinOnDisk,
     WearingCoatedSphere,
     WearingCoatedWave,
+    WearingCylinder,
     WearingPunch,
     WearingSphere,
     WearingWave,
@@ -28,6 +33,9 @@ from asperity.theories import (
 )
 
 SPHERES = reference("transport/wear_sphere")
+STEPS = WearSteps(tolerance=0.02, order=2)
+"""Of solutions on the grid: errors below 1 %."""
+
 WORN = [row for row in SPHERES if float(row["sliding_distance_m"]) > 0.0]
 
 
@@ -156,6 +164,26 @@ def test_sphere_without_a_coating_beside_rings() -> None:
         assert found.radius == pytest.approx(rings.radius, rel=RING + (0.01 if late else 0.025))
         assert found.depth == pytest.approx(rings.depth[0], rel=0.01 if late else 0.035)
         assert found.volume == pytest.approx(rings.volume, rel=1e-12)
+
+
+def test_cylinder_beside_the_solver() -> None:
+    """What its docstring states of half-width and depth; worn section by Archard."""
+    theory = WearingCylinder(1e11, 5e-3, 2e4, 1e-14)
+    hertz = theory.hertz_half_width
+    for share in (0.02, 0.3, 1.0, 3.0, 30.0):
+        s = share * hertz**3 / (1.5 * theory.radius * theory.coefficient * theory.load)
+        found = theory.at_distance(s)
+        points, late = 300, float(found.half_width) > 3.0 * hertz
+        dx = 2.4 * float(found.half_width) / points
+        x = (np.arange(points) - 0.5 * (points - 1)) * dx
+        surface = asp.Surface((-(x**2) / (2.0 * theory.radius))[:, None], dx, 1.0)
+        problem = asp.ContactProblem(surface, asp.Elastic(0.91e11, 0.3), boundary=asp.FreeLine())
+        history = worn_by_solver(problem, asp.Force(theory.load), s, archard(theory.coefficient), steps=STEPS)
+        width = 0.5 * dx * np.count_nonzero(history.last.pressure)
+        pixel = dx / float(found.half_width)
+        assert found.half_width == pytest.approx(width, rel=pixel + (0.005 if late else 0.04))
+        assert found.depth == pytest.approx(history.body_depth.max(), rel=0.005 if late else 0.04)
+        assert found.section == pytest.approx(history.worn_volume, rel=1e-9)
 
 
 def test_break_through_of_a_sphere() -> None:

@@ -1,4 +1,5 @@
-"""Spheres that are worn flat on a body that does not wear, without and with a coating."""
+"""Spheres and cylinders that are worn flat on a body that does not wear, and spheres with a
+coating."""
 
 from __future__ import annotations
 
@@ -13,9 +14,9 @@ from ...core.arrays import RealArray
 from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quantity import Quantity
-from ...core.values import Length
+from ...core.values import Length, Number
 from ..ask import Way
-from ..protocol import CONTACT_RADIUS, Bound, Modulus, Theory, bisected, checked
+from ..protocol import CONTACT_RADIUS, Bound, Modulus, Theory, bisected, checked, small_slope
 from .laws import DISTANCE, Load, WearCoefficient
 
 # A sphere with the even pressure p on r < a is worn so that w(r) = (a² - r²)/2R + u(a) - u(r), with
@@ -117,6 +118,86 @@ class WearingSphere(Theory):
         radius, depth = worn_from_hertz(4.0 * self.radius * volume / (math.pi * hertz**4))
         a = hertz * radius
         return WornSphereAnswer(s, a, hertz**2 / (2.0 * self.radius) * depth, volume, self.load / (math.pi * a**2))
+
+
+# A cylinder of the load P per length: u(0) - u(a) = 2 ln 2 P/πE*, and ∫ u - u(a) = 2Pa/πE* over the
+# width; Hertz's half-width A has A² = 4PR/πE*.
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class WornCylinderAnswer(Tabled):
+    """A worn cylinder at some sliding distances (m), arrays of one shape: ``half_width`` of the
+    contact and ``depth`` in its middle in m, worn ``section`` in m², ``mean_pressure`` in Pa."""
+
+    distance: RealArray
+    half_width: RealArray
+    depth: RealArray
+    section: RealArray
+    mean_pressure: RealArray
+
+
+@dataclass(frozen=True)
+class WearingCylinder(Theory):
+    """A cylinder under the load P per length, such as that of a fretting test with a small stroke,
+    from Hertz's contact of half-width a_H. If its flat wears too, k is the sum of both coefficients
+    and the depth that of both.
+
+        a_1³ = a_H³ + (3/2) R k P s,  a_2³ - (3/4) a_H² a_2 = (3/2) R k P s,
+        w_1 = (2/π) (a_1² - a_H²)/R,  w_2 = (a_2² - a_H² ln 2)/(2 R).
+
+    The first are those of the start, when the largest pressure is that of Hertz, 4/π times the mean
+    one; the second are those of uniform pressure. The larger half-width and the smaller depth hold.
+    Both are within 4 % of the numerical solution at all distances, and within 0.5 % from three
+    times Hertz's half-width on.
+
+    Examples
+    --------
+    >>> both = WearingCylinder(110e9, radius=6e-3, load=18.5e3, coefficient=4.8e-14)
+    >>> worn = both.at_distance(18000 * 97e-6)
+    >>> flat = worn.depth.item() * 2.9 / 4.8
+    >>> f"{worn.half_width.item() * 1e3:.3f} mm, {flat * 1e6:.2f} µm of the flat"
+    '0.242 mm, 2.91 µm of the flat'
+    """
+
+    E_star: Modulus
+    radius: Annotated[Length, "radius of curvature R of the cylinder"]
+    load: Annotated[float, Number("N/m", above=0.0), "normal force P per length"]
+    coefficient: WearCoefficient
+    name: ClassVar[str] = "wearing-cylinder"
+    title: ClassVar[str] = "Wearing cylinder"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Archard1953", "Goryacheva1998", "Hertz1882")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope("half-width over radius of curvature", lambda theory, answer: answer.half_width / theory.radius),
+    )
+    numbers: ClassVar[tuple[Quantity, ...]] = (Quantity("hertz_half_width", "m", "half-width before any wear"),)
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(
+            DISTANCE,
+            "at_distance",
+            (
+                Quantity("half_width", "m", "half-width of the contact"),
+                Quantity("depth", "m", "worn depth in the middle"),
+                Quantity("section", "m^2", "worn volume per length"),
+                Quantity("mean_pressure", "Pa", "load over width"),
+            ),
+        ),
+    )
+
+    @property
+    def hertz_half_width(self) -> float:
+        """a_H in m."""
+        return math.sqrt(4.0 * self.load * self.radius / (math.pi * self.E_star))
+
+    def at_distance(self, distance: ArrayLike) -> WornCylinderAnswer:
+        """The cylinder after the sliding ``distance`` in m, >= 0, of any shape."""
+        s = checked(distance, "sliding distance (m)")
+        section, hertz = self.coefficient * self.load * s, self.hertz_half_width
+        cubic = 1.5 * self.radius * section / hertz**3
+        early, high = np.cbrt(1.0 + cubic), 1.0 + np.cbrt(cubic)
+        late = bisected(lambda z: z**3 - 0.75 * z - cubic, np.full_like(cubic, 0.5), high, _HALVINGS)
+        a = hertz * np.maximum(early, late)
+        depth = np.minimum(4.0 / math.pi * (early**2 - 1.0), late**2 - math.log(2.0))
+        return WornCylinderAnswer(s, a, hertz**2 / (2.0 * self.radius) * depth, section, 0.5 * self.load / a)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
