@@ -199,7 +199,7 @@ class WearHistory:
                 f"The compliance is that of one thickness, and off by about {self.compliance_error:.0%}.",
                 "Where the coating is much stiffer or softer than its base, take pressures as estimates.",
                 {"variation": self.unevenness, "error": self.compliance_error},
-                ("max_pressure", "approach"),
+                ("wear_max_pressure", "wear_area_fraction"),
             )
         if self.error > LARGEST_ERROR:
             yield Advice(
@@ -208,7 +208,7 @@ class WearHistory:
                 f"The length of the steps may have put {self.error:.1%} of the worn volume at the wrong place.",
                 "Use a smaller tolerance of the steps ({wear.tolerance}).",
                 {"error": self.error},
-                ("max_depth", "max_pressure", "area_fraction"),
+                ("wear_",),
             )
         pixels = int(np.count_nonzero(self.last.contact))
         if 0 < pixels < LEAST_PIXELS:
@@ -218,5 +218,5 @@ class WearHistory:
                 f"The contact that wears has {pixels} pixels.",
                 "Use more points, or a smaller area.",
                 {"pixels": float(pixels)},
-                ("max_depth", "max_pressure", "area_fraction"),
+                ("wear_",),
             )

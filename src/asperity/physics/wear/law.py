@@ -312,7 +312,6 @@ def of_layers(body: Body) -> WearLaw:
         if math.isnan(material.strength.wear_coefficient):
             raise InputError(
                 f"wear coefficient of {material.name or 'a material'} must be known, but is not: it depends on the "
-                'counter body and its surroundings. Measure it, and give it as material("steel{kw=1e-6mm^3/Nm}"), or '
-                "give a law."
+                "counter body and its surroundings. Measure it and give it ({wear_coefficient}), or give a law."
             )
     return WearLaw(tuple((thickness, material.strength.wear_coefficient) for thickness, material in parts))

@@ -108,7 +108,7 @@ def implicit_stage(
         status = Status(
             Outcome.ITERATION_LIMIT,
             f"Not converged: the stages of wear still change the depth by {miss:.1e} m after {_MOST} contacts.",
-            "Give {steps_of_wear} more steps.",
+            "Take more steps ({wear.steps}).",
         )
     return Stage(pressure, own.deflection - worn, status, pairs, count)
 
