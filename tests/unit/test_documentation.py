@@ -235,6 +235,14 @@ def test_the_example_of_frictional_heating(capsys):
     assert bare < coated < bare + 2e-6  # thickness over conductivity of the layer
 
 
+def test_the_example_of_wear(capsys):
+    (code,) = blocks(ROOT / "docs/theory/wear.md", "python")
+    names = {}
+    exec(compile(code, "wear.md", "exec"), names)  # noqa: S102 - running the page is the test
+    assert len(capsys.readouterr().out.splitlines()) == 3
+    assert names["after"].core[0] == 0.0 < names["ball"].life < 10.0
+
+
 def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
     """On a surface as smooth as the films are thin; the table of options and keys has everything
     twice."""

@@ -50,6 +50,10 @@ def fretted(
     much the dose has changed, and so the error and the length of the next jump (jump in cycles,
     Johansson 1994; McColl, Ding and Leen 2004).
 
+    The contact stays where it is on both surfaces: the shift has to be small against its width. Of
+    a cylinder that was shifted by half of the width of its contact, depths came out 7 to 10 % too
+    large.
+
     Parameters
     ----------
     problem
