@@ -216,6 +216,10 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
         "wear.coefficient_counter_body",
     ),
     "coefficient of a length": ({"wear": {"distance": "1 m", "coefficient_body": "1 mm"}}, "wear.coefficient_body"),
+    "bare without a coating": (
+        {"body": "bearing steel{kw=1e-6mm^3/Nm}", "wear": {"distance": "1 m", "until_bare": True}},
+        "wear.until_bare",
+    ),
     "debris without its modulus": ({"wear": {"distance": "1 m", "debris": "20 %"}}, "wear.debris_modulus"),
     "debris on a track": (
         {"wear": {"distance": "1 m", "debris": "20 %", "debris_modulus": "1 GPa", "track_body": "1 m"}},

@@ -149,6 +149,11 @@ def sides_of(ask: Wears, problem: ContactProblem) -> Sides:
             "pair, as measured ({wear.coefficient_body=1e-6mm^3/Nm}), or those of its materials ({wear_coefficient}).",
             subject="wear coefficient",
         )
+    if table.until_bare and not any(law is not None and law.thickness > 0.0 for law in laws.values()):
+        raise InputError(
+            "wear.until_bare must be left out where no body that wears is coated, but is given. Take layers, or "
+            "{wear.allowed_depth=100nm}."
+        )
     tracks = [None if value is None else float(value) for value in (table.track_body, table.track_counter_body)]
     for name, track in zip(laws, tracks, strict=True):
         if track is not None and laws[name] is None:
