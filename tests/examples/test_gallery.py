@@ -495,6 +495,7 @@ def test_a_coating_that_bends():
     assert left.tension.largest_top[1] > 0.9 * coated.contact_radius[11]
 
 
+@pytest.mark.slow
 def test_fretting_of_a_sphere():
     """A ring in partial slip; a scar, deepest in its middle, where all slips by four shifts a
     cycle."""

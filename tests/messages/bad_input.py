@@ -688,6 +688,9 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "wear in a document beside a shift": lambda: asp.run(
         WEARS | {"friction": {"coefficient": 0.3}, "shear": {"shift": "1 nm"}}
     ),
+    "wear in a document until what is not coated is bare": lambda: asp.run(
+        WEARS | {"wear": {"distance": "1 m", "coefficient_body": "1e-6 mm^3/Nm", "until_bare": True}}
+    ),
     "wear in a document beyond the load": lambda: asp.run(
         WEARS | {"wear": {"distance": "1 m", "coefficient_body": "1e-6 mm^3/Nm", "step": 3}}
     ),

@@ -180,7 +180,7 @@ SCALARS = (
     *(
         Quantity(f"wear_{name}_{when}", unit, f"{label} {'before' if when == 'first' else 'after'} wear")
         for name, unit, label in (
-            ("area_fraction", "1", "real contact area / nominal area"),
+            ("area_fraction", "1", "real contact area / nominal area (pixels)"),
             ("max_pressure", "Pa", "maximum pressure"),
             ("rms_height", "m", "rms height"),
             ("core_height", "m", "core height Sk"),

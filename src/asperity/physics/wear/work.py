@@ -111,7 +111,7 @@ class WearWork(WithFacts):
         rows += [("debris that stays", percent(facts["debris"]))] if facts["debris"] else []
         for item in SCALARS:
             value = float(values.get(item.name, math.nan))
-            if math.isfinite(value):
+            if math.isfinite(value) and not _idle(item.name, facts):
                 rows.append((item.label, value_text(item, value)))
         holds, alarming = _holds(values, facts)
         headline = [("worn volume", show(volume, "m**3", 3)), ("largest worn depth", show(depth, "m", 3))]
@@ -148,6 +148,11 @@ def sides_of(ask: Wears, problem: ContactProblem) -> Sides:
             "wear coefficient of a body must be known, but is not: none is that of a material alone. Give that of the "
             "pair, as measured ({wear.coefficient_body=1e-6mm^3/Nm}), or those of its materials ({wear_coefficient}).",
             subject="wear coefficient",
+        )
+    if table.until_bare and not any(law is not None and law.thickness > 0.0 for law in laws.values()):
+        raise InputError(
+            "wear.until_bare must be left out where no body that wears is coated, but is given. Take layers, or "
+            "{wear.allowed_depth=100nm}."
         )
     tracks = [None if value is None else float(value) for value in (table.track_body, table.track_counter_body)]
     for name, track in zip(laws, tracks, strict=True):
@@ -341,6 +346,16 @@ def _holds(values: Mapping[str, Any], facts: Mapping[str, Any]) -> tuple[str, bo
             else f"Stays within the allowed depth: {depth} of {allowed} are gone after {way_text(values, facts)}."
         )
     return " ".join(texts), alarming
+
+
+def _idle(name: str, facts: Mapping[str, Any]) -> bool:
+    """Whether the number of that ``name`` is of a body that does not wear, or of a coating that is
+    not there."""
+    alone = len(facts["wears"]) == 1
+    coating = ("wear_bare_fraction", "wear_unevenness", "wear_compliance_error")
+    return (alone and name.startswith(("wear_body_", "wear_counter_body_"))) or (
+        not facts["thickness"] and name in coating
+    )
 
 
 def _course_table(values: Mapping[str, Any], facts: Mapping[str, Any]) -> Table:
