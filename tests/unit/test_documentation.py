@@ -235,7 +235,7 @@ def test_the_example_of_frictional_heating(capsys):
     assert bare < coated < bare + 2e-6  # thickness over conductivity of the layer
 
 
-def test_the_example_of_wear(capsys):
+def test_the_example_of_theories_of_wear(capsys):
     (code,) = blocks(ROOT / "docs/theory/wear.md", "python")
     names = {}
     exec(compile(code, "wear.md", "exec"), names)  # noqa: S102 - running the page is the test
