@@ -19,6 +19,7 @@ CRESTS = {
 WHEEL = {"semi_x": 6e-3, "semi_y": 4e-3, "shear": 8e10, "nu": 0.3}
 FILM = {"surface_tension": 0.072, "film_thickness": 1e-9}
 HEAT = {"flux": 1e8, "conductivity": 46.0, "diffusivity": 1.2e-5}
+PIN = {"radius": 3e-3, "load": 10.0}
 PASSAGE = {"viscosity": 1e-3, "width": 1e-2, "length": 1e-3}
 EXAMPLES = {
     "greenwood-williamson": SUMMITS,
@@ -168,6 +169,35 @@ EXAMPLES = {
         "q": np.array([1e4, 1e5, 1e7]),
         "psd": np.array([1e-22, 1e-22, 1e-29]),
     },
+    "archard": {
+        "coefficient": 1e-14,
+        "load": 10.0,
+        "area": 1e-6,
+        "thickness": 2e-6,
+        "coating_coefficient": 1e-15,
+    },
+    "dissipated-energy": {"energy_coefficient": 4e-14, "friction": 0.7, "threshold": 100.0},
+    "worn-composite": {"coefficient_1": 1e-14, "coefficient_2": 1e-15, "fraction_2": 0.2},
+    "worn-cap": {"radius": 3e-3},
+    "pin-on-disk": {**PIN, "track_radius": 1e-2, "pin_coefficient": 1e-16, "disk_coefficient": 1e-15},
+    "wearing-sphere": {"E_star": 1e11, **PIN, "coefficient": 1e-15},
+    "wearing-coated-sphere": {
+        "E_star": 1e11,
+        **PIN,
+        "coating_coefficient": 1e-15,
+        "substrate_coefficient": 1e-14,
+        "thickness": 1e-6,
+    },
+    "wearing-cylinder": {"E_star": 1e11, "radius": 6e-3, "load": 2e4, "coefficient": 1e-15},
+    "wearing-punch": {"E_star": 1e11, "radius": 1e-3, "coefficient": 1e-15},
+    "wearing-wave": {"E_star": 1e11, "wavelength": 1e-5, "coefficient": 1e-15},
+    "wearing-coated-wave": {
+        "coating": 4e11,
+        "base": 2e11,
+        "thickness": 1e-6,
+        "wavelength": 1e-5,
+        "coefficient": 1e-15,
+    },
 }
 """Numbers for every theory of the catalogue; a new theory is one more entry."""
 
@@ -198,5 +228,12 @@ RANGES = {
     "inlet": (0.0, 1e6),
     "mean_gap": (1e-9, 1e-7),
     "covered": (0.0, 0.78),
+    "distance": (0.0, 1e3),
+    "energy": (0.0, 1e4),
+    "cycles": (0.0, 1e5),
+    "scar_radius": (0.0, 1e-3),
 }
 """Between what the arguments run."""
+
+GIVEN = {"load": 1e-6, "pressure": 1e6, "amplitude": 1e-5, "distance": 1e3}
+"""What is given beside them."""

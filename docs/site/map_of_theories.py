@@ -22,6 +22,7 @@ from agreement.heating import HEATING  # noqa: E402
 from agreement.matrix import MATRIX  # noqa: E402
 from agreement.sealing import SEALING  # noqa: E402
 from agreement.single_contacts import SINGLE_CONTACTS  # noqa: E402
+from agreement.wear import WEAR  # noqa: E402
 
 from asperity.theories.catalogue import FAMILIES, THEORIES  # noqa: E402
 from asperity.theories.protocol import Described  # noqa: E402
@@ -36,6 +37,7 @@ COLUMNS: tuple[dict[str, str], ...] = (
         "Conductance": "Conductance",
         "Frictional heating": "Frictional heating",
         "Sealing": "Sealing",
+        "Wear": "Wear",
         "Plasticity and hardness": "Plasticity and hardness",
         "Statistics of surfaces": "Statistics",
     },
@@ -70,7 +72,7 @@ def group_of(kind: type[Described]) -> str:
 def limits() -> dict[tuple[str, str], list[str]]:
     """Limits in which two theories of the catalogue agree, by their names."""
     found: dict[tuple[str, str], list[str]] = {}
-    for row in (*MATRIX, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE, *HEATING, *SEALING):
+    for row in (*MATRIX, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE, *HEATING, *SEALING, *WEAR):
         if row.other in THEORIES and row.other != row.theory:
             found.setdefault((row.theory, row.other), []).append(row.limit)
     return found

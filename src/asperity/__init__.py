@@ -28,6 +28,7 @@ Everything of a subject stands in its module. Numbers are in SI units, arrays ar
     surfaces        maps of heights, read, prepared and paired
     theories        closed forms of contact, which take and return numbers
     viscoelasticity materials that relax, oscillating and sliding contacts, hysteretic friction
+    wear            running-in, fretting, break-through of coatings
 
 Go on with ``help(asperity.solve)`` or ``help(asperity.contact)``.
 """

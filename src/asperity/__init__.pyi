@@ -23,6 +23,7 @@ from . import studies as studies
 from . import surfaces as surfaces
 from . import theories as theories
 from . import viscoelasticity as viscoelasticity
+from . import wear as wear
 from .cli.press import press as press
 from .contact.boundary import Free as Free
 from .contact.boundary import FreeLine as FreeLine
@@ -109,4 +110,5 @@ __all__ = [
     "surfaces",
     "theories",
     "viscoelasticity",
+    "wear",
 ]

@@ -97,6 +97,8 @@ LIMITS: dict[str, dict[str, str]] = {
         "laser_bumps": "the constants of the formula, each a keyword",
         "weierstrass_mandelbrot": "the constants of the published formula, each a keyword",
         "weierstrass_mandelbrot_profile": "the constants of the published formula, each a keyword",
+        "worn": "independent keyword-only choices of the user, each with a default",
+        "fretted": "independent keyword-only choices of the user, each with a default",
     },
 }
 """Reason by limit and place of the definition in its module (``Class.method``), whatever module

@@ -493,3 +493,31 @@ def test_a_coating_that_bends():
     np.testing.assert_allclose(under, -coated.load[11], rtol=1e-5)
     assert left.tension.largest_bottom[1] < 0.6 * coated.contact_radius[11]
     assert left.tension.largest_top[1] > 0.9 * coated.contact_radius[11]
+
+
+@pytest.mark.slow
+def test_fretting_of_a_sphere():
+    """A ring in partial slip; a scar, deepest in its middle, where all slips by four shifts a
+    cycle."""
+    left = run("intermediate/plot_10_fretting_of_a_sphere")
+    ring, scar = left.found.values()
+    middle = left.points // 2
+    assert ring.depth[middle, middle] == 0.0
+    assert scar.depth.max() == pytest.approx(scar.depth[middle, middle], rel=0.02)
+    slid = 4.0 * 2e-6 * 4000
+    assert scar.worn_volume == pytest.approx(2.0 * 1e-14 * 10.0 * slid, rel=0.15), "but for what sticks at the turns"
+    assert max(ring.error, scar.error) < 0.05
+
+
+def test_pin_on_a_coated_disk():
+    """Volumes by the forces; the track wears alike along it, and lasts longer than at its first
+    width."""
+    left = run("advanced/plot_14_pin_on_a_coated_disk")
+    assert left.even < left.history.breakthrough < 600.0
+    early = [contact for distance, contact in left.history.kept if distance == 300.0]
+    depth = -early[0].problem.counter_surface.heights
+    np.testing.assert_allclose(depth, depth[:1] * np.ones((96, 1)), rtol=1e-12)
+    length = 96 * 2.5e-6
+    volume = depth.sum() * (2.5e-6) ** 2 * 60e-3 / length
+    assert volume == pytest.approx(1e-15 * 5.0 * 300.0, rel=1e-6)
+    assert left.history["body_volume"][-1] == pytest.approx(1e-17 * 5.0 * 600.0, rel=1e-6)

@@ -22,6 +22,9 @@ SEAL: dict[str, Any] = {
 }
 """A contact that leaks."""
 
+WEARS = {key: value for key, value in SEAL.items() if key != "sealing"} | {"wear": {"distance": "1 m"}}
+"""A contact that is to wear, but has no coefficient."""
+
 FLOWS = ("--body", "E=200GPa,nu=0.3,Y=400MPa")
 RUBBER = ("--body", "E=1GPa+1GPa@1s,nu=0.4,name=rubber")
 ON_RUBBER = ("--body", "rigid", "--counter", RUBBER[1], *LOAD, "--sliding-speed", "1mm/s")
@@ -640,6 +643,60 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "a heated interface that generates": lambda: asp.heating.HeatedInterface((-1.0, 0.0)),
     "a heat sink at the surface": lambda: asp.heating.HeatedInterface(sink=(0.0, 1.0)),
     "bodies colder than nothing": lambda: asp.heating.HeatedInterface(bulk=(-1.0, 1.0)),
+    "wear of an unknown coefficient": lambda: asp.wear.of_layers(asp.material("nickel")),
+    "wear of a rigid body": lambda: asp.wear.of_layers(asp.Rigid()),
+    "wear coefficient below zero": lambda: asp.Strength(wear_coefficient=-1.0),
+    "wear of nobody": lambda: asp.wear.Sides(),
+    "wear of two tracks": lambda: asp.wear.Sides(
+        asp.wear.archard(1e-15), asp.wear.archard(1e-15), body_track=1.0, counter_track=1.0
+    ),
+    "wear without an end": lambda: asp.wear.WearLaw(((1e-6, 1e-15),)),
+    "wear by energy without friction": lambda: asp.wear.dissipated_energy(1e-15, 0.0),
+    "wear over no distance": lambda: asp.wear.worn(_hot_joint(), asp.MeanPressure(1e7), 0.0, asp.wear.archard(1e-15)),
+    "wear over distances that fall": lambda: asp.wear.worn(
+        _hot_joint(), asp.MeanPressure(1e7), [2.0, 1.0], asp.wear.archard(1e-15)
+    ),
+    "wear by a number": lambda: asp.wear.worn(_hot_joint(), asp.MeanPressure(1e7), 1.0, 1e-15),  # type: ignore[arg-type]
+    "wear of adhesive surfaces": lambda: asp.wear.worn(
+        _hot_joint().with_physics(adhesion=asp.adhesion.ExponentialAdhesion(0.05, 1e-9)),
+        asp.MeanPressure(1e7),
+        1.0,
+        asp.wear.archard(1e-15),
+    ),
+    "steps of wear of third order": lambda: asp.wear.WearSteps(order=3),  # type: ignore[arg-type]
+    "explicit steps of wear of second order": lambda: asp.wear.WearSteps(order=2, method="explicit"),
+    "fretting without friction": lambda: asp.wear.fretted(
+        _hot_joint(), asp.MeanPressure(1e7), asp.friction.Shift(1e-9), 3, asp.wear.archard(1e-15)
+    ),
+    "fretting without a shift": lambda: asp.wear.fretted(
+        _hot_joint().with_physics(friction=asp.Coulomb(0.3)),
+        asp.MeanPressure(1e7),
+        asp.friction.Shift(),
+        3,
+        asp.wear.archard(1e-15),
+    ),
+    "wear in a document without a coefficient": lambda: asp.run(WEARS),
+    "wear in a document of one without a coefficient": lambda: asp.run(
+        WEARS | {"wear": {"distance": "1 m", "wears": "counter_body", "coefficient_body": "1e-6 mm^3/Nm"}}
+    ),
+    "wear in a document on a track that does not wear": lambda: asp.run(
+        WEARS | {"wear": {"distance": "1 m", "coefficient_body": "1e-6 mm^3/Nm", "track_counter_body": "60 mm"}}
+    ),
+    "wear in a document by energy without friction": lambda: asp.run(
+        WEARS | {"wear": {"distance": "1 m", "law": "energy"}}
+    ),
+    "wear in a document beside a shift": lambda: asp.run(
+        WEARS | {"friction": {"coefficient": 0.3}, "shear": {"shift": "1 nm"}}
+    ),
+    "wear in a document until what is not coated is bare": lambda: asp.run(
+        WEARS | {"wear": {"distance": "1 m", "coefficient_body": "1e-6 mm^3/Nm", "until_bare": True}}
+    ),
+    "wear in a document beyond the load": lambda: asp.run(
+        WEARS | {"wear": {"distance": "1 m", "coefficient_body": "1e-6 mm^3/Nm", "step": 3}}
+    ),
+    "an animation of wear that is none": lambda: asp.report.save_wear_animation(
+        asp.run({key: value for key, value in WEARS.items() if key != "wear"}), "none.gif"
+    ),
     "a heat capacity of zero": lambda: asp.solids.Conduction(volumetric_heat_capacity=0.0),
     "leakage along one point": lambda: asp.run(
         SEAL

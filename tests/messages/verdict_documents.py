@@ -23,6 +23,11 @@ RUBBER = BALL | {"body": "E=3MPa+297MPa@1ms,nu=0.5", "control": {"force": "20 uN
 WET = PLAIN | {"film": {"liquid": "water", "humidity": "60 %"}}
 SLIDE = PLAIN | {"friction": {"coefficient": 0.3}, "shear": {"shift": "0.4 nm"}}
 LEAKING = PLAIN | {"body": "E=100GPa,nu=0.3", "control": {"mean_pressure": "20 MPa"}, "sealing": {}}
+WEARS = PLAIN | {
+    "body": "E=400GPa,nu=0.2,H=20GPa,name=carbide{kw=1e-7mm^3/Nm}:20nm/"
+    "E=200GPa,nu=0.3,H=7GPa,name=base steel{kw=1e-6mm^3/Nm}",
+    "wear": {"distance": "0.1 m"},
+}
 DOWN = {"path": {"mean_pressure": ["20 MPa", "0 MPa"], "steps": 3}}
 
 DOCUMENTS: dict[str, dict[str, Any]] = {
@@ -108,6 +113,20 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
     },
     "a sliding contact beyond the limits": PLAIN
     | {"body": "mild steel", "heating": {"speed": "300 m/s", "friction": 0.5, "moving": "body"}},
+    "a coating that is worn through": WEARS | {"wear": {"distance": "4 m", "until_bare": True}},
+    "a coating that lasts": WEARS | {"wear": {"distance": "0.1 m"}},
+    "a surface worn too deep": WEARS | {"wear": {"distance": "0.1 m", "allowed_depth": "1 nm", "wears": "body"}},
+    "a disk that wears as a track": WEARS
+    | {
+        "counter_body": "mild steel{kw=1e-4mm^3/Nm}",
+        "wear": {"distance": "0.1 m", "track_counter_body": "60 mm", "allowed_depth": "1 um"},
+    },
+    "surfaces that fret": WEARS
+    | {
+        "body": "mild steel{kw=1e-5mm^3/Nm}",
+        "friction": {"coefficient": 0.3},
+        "wear": {"cycles": 10, "shift": "20 nm", "quarter": 2},
+    },
     "a seal that leaks": LEAKING,
     "a seal that is tight enough": LEAKING | {"sealing": {"allowed_rate": "1 mm^3/s"}},
     "a seal that is not tight": LEAKING | {"sealing": {"fluid": "helium", "allowed_throughput": "1e-12 mbar*l/s"}},

@@ -16,8 +16,10 @@ from typer.testing import CliRunner
 
 import asperity as asp
 from asperity.cli.main import app
+from asperity.core.settings import declared
 from asperity.physics.menisci.part import Menisci
 from asperity.physics.stress.part import Stress
+from asperity.physics.wear.part import WearSettings
 from asperity.run.document import load_document, loads
 from asperity.studies.documents import study_from_table
 from asperity.studies.plan import make_plan
@@ -233,6 +235,14 @@ def test_the_example_of_frictional_heating(capsys):
     assert bare < coated < bare + 2e-6  # thickness over conductivity of the layer
 
 
+def test_the_example_of_theories_of_wear(capsys):
+    (code,) = blocks(ROOT / "docs/theory/wear.md", "python")
+    names = {}
+    exec(compile(code, "wear.md", "exec"), names)  # noqa: S102 - running the page is the test
+    assert len(capsys.readouterr().out.splitlines()) == 3
+    assert names["after"].core[0] == 0.0 < names["ball"].life < 10.0
+
+
 def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
     """On a surface as smooth as the films are thin; the table of options and keys has everything
     twice."""
@@ -330,6 +340,33 @@ def test_the_example_of_flash_temperatures(capsys):
     exec(compile(code.replace("128, 128", "64, 64"), page.name, "exec"), names)  # noqa: S102 - running the page is the test
     assert names["hot"].share > 0.5, "the coating of the moving body sends the heat into the other one"
     assert capsys.readouterr().out.count("into the body") == 2
+
+
+def test_the_example_of_wear(capsys):
+    page, names = ROOT / "docs/how-to/wear.md", {}
+    (code,) = blocks(page, "python")
+    exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    first, last = (names["history"].kept[end][1] for end in (0, -1))
+    assert last.area_fraction > 2.0 * first.area_fraction
+    assert last.max_pressure < 0.5 * first.max_pressure
+    assert "bare after" in capsys.readouterr().out
+
+
+def test_the_commands_of_wear(tmp_path, monkeypatch):
+    """On a small scan; every option of the tables is one of the command, with the key beside it."""
+    monkeypatch.chdir(tmp_path)
+    page = ROOT / "docs/how-to/wear.md"
+    spectrum = asp.generate.GaussianAutocorrelation(1e-7, 1e-6)
+    asp.files.save_surface(asp.generate.gaussian(asp.Grid((32, 32), (3e-7, 3e-7)), spectrum, seed=1), "scan.nc")
+    line, study = (line for block in blocks(page, "console") for line in block.splitlines())
+    result = CliRunner().invoke(app, [*shlex.split(line.removeprefix("$ "))[1:], "--wear-tolerance", "10%"])
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / "run" / "wear.csv").exists()
+    assert float(asp.files.open_tree("run/result.nc")["wear/wear_distance"]) == 1.0
+    assert (ROOT / "examples/campaigns" / shlex.split(study)[3]).exists()
+    shown = set(re.findall(r"(--[a-z-]+)", page.read_text(encoding="utf-8")))
+    options = {declared(key, field).option for key, field in WearSettings.model_fields.items()}
+    assert options <= shown
 
 
 def test_the_example_of_sealing(capsys):

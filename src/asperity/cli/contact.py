@@ -81,7 +81,7 @@ FILES = MappingProxyType(
         "vtk": "the fields as a VTK image file (.vti)",
         "stress_vtk": "the stresses in the volume as a VTK file (.vtr)",
         "stress_nc": "the stresses in the volume as a NetCDF file (.nc)",
-        "animation": "the plastic zones of the steps as an animated picture (.gif, .png, .webp)",
+        "animation": "plastic zones of the steps, or the section that wears, as a moving picture (.gif, .png, .webp)",
     }
 )
 """Single files that can be written."""
@@ -282,7 +282,7 @@ def _perform(
         save_document(relocated(document, base, files["save_document"].parent), files["save_document"], overwrite=force)
     if files.keys() - {"save_document"}:
         from ..io.export import export_csv, export_vtk
-        from ..report.animation import save_plastic_animation
+        from ..report.animation import save_animation
 
         if "csv" in files:
             export_csv(outcome.result, files["csv"], scalars=outcome.scalars, overwrite=force)
@@ -290,7 +290,7 @@ def _perform(
             export_vtk(outcome.result, files["vtk"], overwrite=force)
         write_volume(outcome, files, force=force)
         if "animation" in files:
-            save_plastic_animation(outcome, files["animation"], overwrite=force)
+            save_animation(outcome, files["animation"], overwrite=force)
     print_problem(outcome, document.title or "Contact")
     print_result(outcome)
     print_files([*in_folder, *files.values()])

@@ -151,6 +151,7 @@ PARTS = (
     "physics.conductance.part:Conductance",
     "physics.sealing.part:Sealing",
     "physics.heating.part:Heating",
+    "physics.wear.part:Wear",
     "physics.sealing.part_flow_factors:FlowFactors",
     "physics.dynamics.part:Dynamics",
     "physics.indentation.part:Indentation",
@@ -168,6 +169,7 @@ FORMS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "conductance",
             "sealing",
             "heating",
+            "wear",
             "plastic_load",
             "deciding_waves",
         ),
@@ -198,6 +200,7 @@ NEEDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "menisci": ("friction",),
         "viscoelastic": ("friction",),
         "rolling": ("friction",),
+        "wear": ("friction",),
         "indentation": ("plastic_flow",),
         "pairs": ("adhesion", "menisci"),
     }
@@ -216,7 +219,11 @@ ROLES: Mapping[str, str] = MappingProxyType(
 of a limit of the pressure that changes with depth, and what takes over the steps of a prepared
 problem whose bodies relax."""
 
-DESCRIBED = ("physics.hardness.layered:LayeredHardness", "physics.stress.regions:Region")
+DESCRIBED = (
+    "physics.hardness.layered:LayeredHardness",
+    "physics.stress.regions:Region",
+    "physics.wear.third_body:ThirdBody",
+)
 """Types that files describe beside those of the keywords."""
 
 OUTCOMES = (*(name for known in PHYSICS.values() for name in known.absent), "creep")
@@ -230,6 +237,7 @@ ANSWERS = (
     "physics.friction.answer:StickSlip",
     "physics.viscoelastic.moments:Creeping",
     "physics.sealing.coupling:FluidContact",
+    "physics.wear.third_body:CompressedLayer",
 )
 """Where the types of what couplings of this package find stand, for files."""
 
@@ -255,6 +263,7 @@ RESULTS: Mapping[str, Kept] = MappingProxyType(
             reads="physics.stress.files:field_from",
         ),
         "rolling_contact": Kept("physics.rolling.rolling:RollingContact", "contact of rough surfaces", "normal"),
+        "wear_history": Kept("physics.wear.history:WearHistory", "contact that wears", "last"),
         "motion": Kept("physics.dynamics.motion:Motion", "motion of a model"),
         "indentation_state": Kept("fem.history:IndentationState", "state of finite elements"),
         "pass_state": Kept("fem.passes:PassState", "state of finite elements"),

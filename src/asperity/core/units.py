@@ -25,6 +25,7 @@ DIMENSIONS = {
     "electrical resistivity": "ohm*m",
     "volumetric heat capacity": "J/(m**3*K)",
     "thermal expansion": "1/K",
+    "wear coefficient": "m**2/N",
     "molar volume": "m**3/mol",
     "viscosity": "Pa*s",
     "speed": "m/s",
@@ -52,6 +53,7 @@ EXAMPLES = {
     "electrical resistivity": "17 nohm*m",
     "volumetric heat capacity": "3.7 MJ/(m**3*K)",
     "thermal expansion": "12e-6/K",
+    "wear coefficient": "1e-6 mm^3/Nm",
     "temperature": "293 K",
     "time": "1 s",
     "speed": "1 mm/s",
@@ -84,8 +86,18 @@ _WRITTEN = {
 """Further units that are read and printed with ``_PREFIXES`` here, and how they are printed: pint
 writes m·Ω, and with a prefix nm·Ω."""
 
+_CUBIC_MM = 1e-9
+"""1 mm³/(N m) in m²/N."""
+
 _DIRECT = {("deg", "rad"): math.pi / 180.0, ("%", "dimensionless"): 0.01}
 """Factors of two more usual units (the contact angle of liquids has a default in degrees)."""
+
+_WEAR = frozenset(
+    f"{volume}/{work}"
+    for volume in ("mm^3", "mm**3", "mm³", "mm3")
+    for work in ("Nm", "(Nm)", "(N m)", "(N*m)", "(N·m)", "N/m")
+)
+"""Usual ways to write the unit of a wear coefficient, which pint does not read."""
 
 
 @cache
@@ -229,6 +241,8 @@ def _factor(name: str, unit: str) -> float:
         return 1.0
     if (name, unit) in _DIRECT:
         return _DIRECT[name, unit]
+    if unit == "m**2/N" and name in _WEAR:
+        return _CUBIC_MM
     if (unit in _PREFIXED or unit in _WRITTEN) and plain.endswith(unit) and plain.removesuffix(unit) in _PREFIXES:
         return float(f"1e{_PREFIXES[plain.removesuffix(unit)]}")
     if len(name) > 60 or not _GRAMMAR.fullmatch(name):
@@ -276,6 +290,8 @@ def show(value: float, unit: str, digits: int = 4) -> str:
     if (unit in _PREFIXED or unit in _WRITTEN) and abs(value) < _LARGEST:
         power = 0 if abs(value) < _SMALLEST else 3 * math.floor(math.log10(abs(value)) / 3)
         return f"{value * _inverse(power):.{digits}g} {_SYMBOLS[power]}{_WRITTEN.get(unit, unit)}"
+    if unit == "m**2/N":
+        return f"{value / _CUBIC_MM:.{digits}g} mm³/(N·m)"
     if unit in _POWERS:
         power, sign, least = _POWERS[unit]
         inverse = {symbol: _inverse(_PREFIXES[symbol], power) for symbol in ("", "m", "µ", "n")}

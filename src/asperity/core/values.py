@@ -504,6 +504,7 @@ ElectricalResistivity: TypeAlias = Annotated[float, Number("electrical resistivi
 VolumetricHeatCapacity: TypeAlias = Annotated[float, Number("volumetric heat capacity", above=0.0)]
 ThermalExpansion: TypeAlias = Annotated[float, Number("thermal expansion", above=0.0)]
 ThermalResistance: TypeAlias = Annotated[float, Number("m^2*K/W", least=0.0)]
+WearCoefficient: TypeAlias = Annotated[float, Number("wear coefficient", least=0.0)]
 Temperature: TypeAlias = Annotated[float, Number("temperature", above=0.0)]
 Voltage: TypeAlias = Annotated[float, Number("V", least=0.0)]
 Speed: TypeAlias = Annotated[float, Number("speed", least=0.0)]

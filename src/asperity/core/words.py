@@ -94,6 +94,9 @@ ACTIONS = MappingProxyType(
             "law=plasticity.LayeredHardness(body)", "--hardness effective", "Law: hardness = effective"
         ),
         "yield_stress": Action("Strength(yield_stress=...)", '"steel{Y=400MPa}" in --body', "Bodies: Yield stress"),
+        "wear_coefficient": Action(
+            "Strength(wear_coefficient=1e-15)", '"DLC{kw=1e-6mm^3/Nm}" in --body', "Bodies: Wear coefficient"
+        ),
         "electrical_resistivity": Action(
             "conduction=solids.Conduction(electrical_resistivity=17e-9)",
             '{rho=17nohm*m} behind its name, as in --body "copper{rho=17nohm*m}"',

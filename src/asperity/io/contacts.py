@@ -48,9 +48,10 @@ MAPS = {
     for item in (
         Quantity("Coulomb_coefficient", "1", "friction coefficient"),
         Quantity("TrescaFriction_strength", "Pa", "shear strength of the interface"),
+        Quantity("ThirdBody_thickness", "m", "thickness of the third body"),
     )
 }
-"""Maps of the laws of friction; any other map of a law is one of the hardness."""
+"""Maps of the physics of the interface; any other map of a law is one of the hardness."""
 
 
 def contact_node(result: ContactResult) -> Node:

@@ -126,6 +126,7 @@ TERMS = {
         Quantity("yield_stress", "Pa", "yield stress"),
         Quantity("kinematic", "Pa", "kinematic hardening"),
         Quantity("recall", "1", "recall of the back stress"),
+        Quantity("wear_coefficient", "m**2/N", "wear coefficient k_w"),
         Quantity("initial", "Pa", "yield stress"),
         Quantity("modulus", "Pa", "hardening modulus"),
         Quantity("gain", "Pa", "largest growth of the yield stress"),
@@ -209,6 +210,8 @@ def _material_text(material: Elastic) -> str:
         texts.append(str(getattr(strength.hardening, "name", "hardening")))
     if strength.kinematic:
         texts.append(f"kinematic hardening {show(strength.kinematic, 'Pa')}")
+    if not math.isnan(strength.wear_coefficient):
+        texts.append(f"k_w = {show(strength.wear_coefficient, 'm**2/N')}")
     if isinstance(material, Viscoelastic):
         texts.append(_relaxation_text(material))
     constants = ", ".join(texts)
@@ -254,6 +257,7 @@ def _strength_rows(strength: Strength) -> Rows:
     if strength.hardening is not None:
         rows.append(("hardening", str(getattr(strength.hardening, "name", type(strength.hardening).__name__))))
         rows += [row for row in _rows(strength.hardening)[1:] if row[0] != TERMS["initial"].label]
+    rows += _value_row("wear_coefficient", strength.wear_coefficient)
     return rows + [
         row
         for key in ("kinematic", "recall")

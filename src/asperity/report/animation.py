@@ -35,6 +35,16 @@ def save_plastic_animation(outcome: Outcome, path: str | Path, *, overwrite: boo
     return save_cuts(plastic_cuts(outcome), path, overwrite=overwrite)
 
 
+def save_animation(outcome: Outcome, path: str | Path, *, overwrite: bool = False) -> Path:
+    """The animation of what goes on in the ``outcome``: wear, where something wears, else the
+    plastic zones; errors as for either."""
+    if "wear" not in outcome.found:
+        return save_plastic_animation(outcome, path, overwrite=overwrite)
+    from .animation_wear import save_wear_animation
+
+    return save_wear_animation(outcome, path, overwrite=overwrite)
+
+
 def plastic_cuts(outcome: Outcome) -> tuple[Cut, ...]:
     """The cut through the largest plastic strain after every step of ``outcome``; errors as for
     ``save_plastic_animation``."""

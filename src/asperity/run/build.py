@@ -534,6 +534,7 @@ def build_strength(table: MaterialTable, known: Elastic | None) -> Strength:
         None if given or table.hardening is not None else before.hardening,
         before.kinematic if table.kinematic is None else float(table.kinematic),
         before.recall if table.recall is None else float(table.recall),
+        before.wear_coefficient if table.wear_coefficient is None else float(table.wear_coefficient),
     )
     if table.hardening is None:
         return strength

@@ -32,8 +32,8 @@ class Hardening(Protocol):
 
 @dataclass(frozen=True)
 class Strength:
-    """What a material bears: hardness and tensile yield stress in Pa, ``nan`` where not known, and
-    how it hardens in plastic flow.
+    """What a material bears: hardness and tensile yield stress in Pa, ``nan`` where not known, how
+    it hardens in plastic flow, and how fast it wears.
 
     InputError if a given value is not positive, or yield stress and hardening contradict each
     other.
@@ -46,6 +46,9 @@ class Strength:
         ``LinearHardening``, ``Swift`` or ``Voce``; None for perfect plasticity.
     kinematic, recall
         H_k in Pa and γ of a back stress (Prager, Armstrong and Frederick), >= 0.
+    wear_coefficient
+        k_w in m²/N, >= 0: worn depth over pressure times distance slid (Archard 1953); 1 mm³/(N m)
+        is 1e-9 m²/N. It is that of the pair and its lubrication, not of the material alone.
     """
 
     hardness: float = math.nan
@@ -53,6 +56,7 @@ class Strength:
     hardening: Hardening | None = None
     kinematic: float = 0.0
     recall: float = 0.0
+    wear_coefficient: float = math.nan
 
     def __post_init__(self) -> None:
         if self.hardening is not None:
@@ -70,6 +74,10 @@ class Strength:
                 require.positive(value, what)
         require.not_negative(self.kinematic, "kinematic hardening (Pa)")
         require.not_negative(self.recall, "recall of the back stress")
+        known = self.wear_coefficient == self.wear_coefficient
+        # of what is not known one object, so that equal ones are equal
+        wear = require.not_negative(self.wear_coefficient, "wear coefficient (m²/N)") if known else math.nan
+        object.__setattr__(self, "wear_coefficient", wear)
 
 
 @dataclass(frozen=True)

@@ -299,8 +299,8 @@ def graded(
     wide as the coating is thick.
 
     ``top``, ``bottom``: materials at the surface and at the lower end. Poisson's ratio and, where
-    both are known, hardness, yield stress, hardening and what conducts change in proportion to
-    depth;
+    both are known, hardness, yield stress, hardening, wear coefficient and what conducts change in
+    proportion to depth;
     ``thickness``: of the whole coating in m, > 0; ``grading``: ``LinearGrading()``,
     ``ExponentialGrading()`` or ``PowerGrading(exponent)``; ``sublayers``: number of equal
     layers, >= 1; ``interface``: of the lowest sublayer to what lies below; the others are bonded.
@@ -355,6 +355,7 @@ def _between(top: Elastic, bottom: Elastic, depth: float, grading: Grading) -> E
             hardening,
             mixed(first.kinematic, last.kinematic),
             mixed(first.recall, last.recall),
+            mixed(first.wear_coefficient, last.wear_coefficient),
         ),
         conduction=Conduction(
             *(

@@ -205,7 +205,7 @@ def _normal(name: str) -> str:
 @dataclass(frozen=True, kw_only=True)
 class MaterialRecord(Record):
     """Young's modulus, hardness and tensile yield stress in Pa, > 0, and Poisson's ratio, -1 <
-    nu <= 0.5, of a material.
+    nu <= 0.5, of a material; ``wear_coefficient`` in m²/N.
 
     A viscoelastic one has a ``relaxation`` of Young's modulus, whose value is then that of the
     first instant; ``elastic_bulk`` and ``shift`` (with ``shift_source``) as of ``Viscoelastic``.
@@ -231,6 +231,7 @@ class MaterialRecord(Record):
     voce_rate: Annotated[Sourced | None, "number"] = None
     kinematic: Annotated[Sourced | None, "pressure"] = None
     recall: Annotated[Sourced | None, "number"] = None
+    wear_coefficient: Annotated[Sourced | None, "wear coefficient"] = None
     thermal_conductivity: Annotated[Sourced | None, "thermal conductivity"] = None
     electrical_resistivity: Annotated[Sourced | None, "electrical resistivity"] = None
     volumetric_heat_capacity: Annotated[Sourced | None, "volumetric heat capacity"] = None
@@ -278,6 +279,7 @@ class MaterialRecord(Record):
             hardening=self.hardening,
             kinematic=self.kinematic.value if self.kinematic else 0.0,
             recall=self.recall.value if self.recall else 0.0,
+            wear_coefficient=self.wear_coefficient.value if self.wear_coefficient else math.nan,
         )
         conducting = tuple(item.name for item in fields(Conduction))
         conduction = Conduction(**{key: item.value for key, item in self.values.items() if key in conducting})
@@ -331,9 +333,9 @@ def materials(path: str | Path | None = None) -> Records[MaterialRecord]:
     names and aliases win.
 
     Keys of a material are ``youngs_modulus`` and ``poisson_ratio`` (required), ``hardness``,
-    ``yield_stress``, those of hardening (``MaterialRecord``), ``thermal_conductivity``,
-    ``electrical_resistivity``, ``volumetric_heat_capacity``, ``thermal_expansion``,
-    ``aliases`` and ``note``; a value is text with a unit
+    ``yield_stress``, those of hardening (``MaterialRecord``), ``wear_coefficient``,
+    ``thermal_conductivity``, ``electrical_resistivity``, ``volumetric_heat_capacity``,
+    ``thermal_expansion``, ``aliases`` and ``note``; a value is text with a unit
     (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being "user" by
     default. A modulus such as ``"3 MPa + 10 MPa @ 10 ms"`` relaxes;
     ``elastic_bulk = true`` and ``shift``, such as ``"WLF 298 K; 8.86; 101.6 K"`` or

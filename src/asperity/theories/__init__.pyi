@@ -149,6 +149,10 @@ from .subsurface.point_shakedown import (
 from .subsurface.shakedown import CylinderShakedown, LineShakedown, cylinder_shakedown, line_shakedown
 from .subsurface.shakedown_limits import ShakedownLine, ShakedownPoint
 from .subsurface.sliding_yield import CylinderYield, SphereYield, YieldOnset, cylinder_yield_onset, sphere_yield_onset
+from .wear.laws import ArchardWear, DissipatedEnergyWear, WornComposite, wear_coefficient
+from .wear.pins import PinOnDisk, WornCap, track_section
+from .wear.running_in import WearingCoatedWave, WearingPunch, WearingWave, punch_rates
+from .wear.spheres import WearingCoatedSphere, WearingCylinder, WearingSphere
 from .wet.meniscus import MeniscusGrowth
 from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
 from .wet.summits import GrowingMenisci, KineticMeniscus, StatisticalMeniscus, WetSummits
@@ -165,6 +169,7 @@ __all__ = [
     "AnisotropicSummits",
     "AnnularGap",
     "AnyHeights",
+    "ArchardWear",
     "ArrayAnswer",
     "BandSource",
     "BeltStickSlip",
@@ -189,6 +194,7 @@ __all__ = [
     "CylinderShakedown",
     "CylinderYield",
     "DiscreteSummits",
+    "DissipatedEnergyWear",
     "DropletMeniscus",
     "EffectiveHardness",
     "EffectiveMedium",
@@ -277,6 +283,7 @@ __all__ = [
     "PerssonFriction",
     "PerssonTosatti",
     "PinInHole",
+    "PinOnDisk",
     "PlasticJoint",
     "PlasticityIndex",
     "PointShakedown",
@@ -319,9 +326,17 @@ __all__ = [
     "UnloadingFit",
     "VapourMeniscus",
     "WaveFactors",
+    "WearingCoatedSphere",
+    "WearingCoatedWave",
+    "WearingCylinder",
+    "WearingPunch",
+    "WearingSphere",
+    "WearingWave",
     "Wedge",
     "Westergaard",
     "WetSummits",
+    "WornCap",
+    "WornComposite",
     "YieldOnset",
     "analyse_indentation",
     "belt_stick_slip",
@@ -361,6 +376,7 @@ __all__ = [
     "plastic_area_share",
     "point_shakedown",
     "profile_plasticity_index",
+    "punch_rates",
     "rebound",
     "residual_depth",
     "rubber_friction",
@@ -374,6 +390,8 @@ __all__ = [
     "tabor_parameter",
     "tangential_modulus",
     "theory",
+    "track_section",
     "wave_line_area",
+    "wear_coefficient",
     "yield_coefficient",
 ]

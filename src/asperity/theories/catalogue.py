@@ -66,6 +66,10 @@ from .subsurface.hertz import HertzEllipseStress, HertzLineStress, HertzStress
 from .subsurface.loads import Boussinesq, Cerruti, Flamant, Strip
 from .subsurface.shakedown_limits import ShakedownLine, ShakedownPoint
 from .subsurface.sliding_yield import CylinderYield, SphereYield
+from .wear.laws import ArchardWear, DissipatedEnergyWear, WornComposite
+from .wear.pins import PinOnDisk, WornCap
+from .wear.running_in import WearingCoatedWave, WearingPunch, WearingWave
+from .wear.spheres import WearingCoatedSphere, WearingCylinder, WearingSphere
 from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
 from .wet.summits import GrowingMenisci, WetSummits
 
@@ -172,6 +176,19 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             EffectiveMedium,
             ObstacleArray,
             CriticalJunction,
+        ),
+        "Wear": (
+            ArchardWear,
+            DissipatedEnergyWear,
+            WornComposite,
+            WornCap,
+            PinOnDisk,
+            WearingSphere,
+            WearingCoatedSphere,
+            WearingCylinder,
+            WearingPunch,
+            WearingWave,
+            WearingCoatedWave,
         ),
     }
 )

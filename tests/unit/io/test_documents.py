@@ -486,6 +486,7 @@ def test_schema_is_json_and_names_every_table() -> None:
         "conductance",
         "sealing",
         "heating",
+        "wear",
         "flow_factors",
     }
     assert schema["additionalProperties"] is False

@@ -10,7 +10,7 @@ from itertools import pairwise
 import mpmath
 import numpy as np
 import pytest
-from theory_cases import EXAMPLES, RANGES
+from theory_cases import EXAMPLES, GIVEN, RANGES
 
 import asperity as asp
 from asperity.core import quadrature
@@ -189,9 +189,7 @@ def test_no_integral_misses_a_layer(name: str, monkeypatch: pytest.MonkeyPatch) 
             for factor in (1.0, 1e-4, 1e4) if way else (1.0,):
                 asked = {} if way is None else {way.axis.name: factor * np.linspace(*RANGES[way.axis.name], 5)}
                 if way is not None:
-                    asked |= {
-                        item.name: {"load": 1e-6, "pressure": 1e6}[item.name] for item in way.given if item.required
-                    }
+                    asked |= {item.name: GIVEN[item.name] for item in way.given if item.required}
                 found = []
                 for rule in (WHOLE, finer):
                     for module in users:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from refusals import refused
-from theory_cases import EXAMPLES, RANGES
+from theory_cases import EXAMPLES, GIVEN, RANGES
 
 import asperity as asp
 from asperity.core.citations import reference
@@ -25,7 +25,7 @@ def made(name: str):
 def test_every_way_of_every_theory_answers(name, way):
     low, high = RANGES[way.axis.name]
     values = np.linspace(low, high, 200)
-    given = {item.name: {"load": 1e-6, "pressure": 1e6}[item.name] for item in way.given if item.required}
+    given = {item.name: GIVEN[item.name] for item in way.given if item.required}
     model = made(name)
     found = evaluate(model, **{way.axis.name: values}, **given)
     axis, first = found.columns[0]

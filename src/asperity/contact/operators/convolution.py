@@ -91,6 +91,11 @@ class Operator(Protocol):
         mean)."""
 
     @property
+    def translation_invariant(self) -> bool:
+        """Whether a pressure displaces alike wherever it acts, so that the model by which methods
+        are preconditioned has the right size everywhere."""
+
+    @property
     def pairs_per_application(self) -> float:
         """Cost of one application in real FFT pairs of the grid."""
 
@@ -156,7 +161,7 @@ _LEAST_SHARE = 0.8
 """Least eigenvalue of the compliance of a free grid over that of its waves an octave apart."""
 
 
-class _Prepared:
+class PreparedOperator:
     """What periodic and free operators share: transforms and their buffers, prepared at first use
     and kept."""
 
@@ -166,6 +171,7 @@ class _Prepared:
     kernel: RealArray
     octaves: Octaves
     zero_mean_mode: bool
+    translation_invariant: bool = True
 
     @cached_property
     def _resident(self) -> Any:
@@ -220,7 +226,7 @@ class _Prepared:
 # Periodic contact: multiplication by the compliance in Fourier space.
 
 
-class PeriodicOperator(_Prepared):
+class PeriodicOperator(PreparedOperator):
     """u(q) = c(q) p(q) on a periodic grid (Stanley & Kato 1997), spectral discretisation.
 
     Transforms and their buffers are prepared at first use and kept, so one operator serves one
@@ -322,7 +328,7 @@ so, and 12 if every wavenumber is looked up; strips of 32 and 128 the same."""
 # Free contact: exact discrete convolution with influence coefficients on a zero-padded grid.
 
 
-class FreeOperator(_Prepared):
+class FreeOperator(PreparedOperator):
     """u = sum of influence coefficients times pressures, by DC-FFT (Liu, Wang & Liu 2000): no
     periodicity error.
 

@@ -12,10 +12,10 @@ from ...core.arrays import RealArray
 from ...core.engine import Engine
 from ...solids.compliance.creep import AnyCreep, SharedCreep
 from ...solids.compliance.halfspace import Compliance
-from .convolution import Octaves, Operator, _Prepared, coarse_grid, prepare_operator
+from .convolution import Octaves, Operator, PreparedOperator, coarse_grid, prepare_operator
 
 
-class MultipleOperator(_Prepared):
+class MultipleOperator(PreparedOperator):
     """``factor`` times the operator ``whole``, with buffers of its own."""
 
     def __init__(self, whole: Operator, factor: float) -> None:
@@ -53,7 +53,7 @@ class _Multiple(Octaves):
         return np.asarray(self.factor * self.whole.spectral(wavenumber))
 
 
-class SummedOperator(_Prepared):
+class SummedOperator(PreparedOperator):
     """Operator of a ``compliance`` whose ``kernel`` (m/Pa) on the half spectrum of ``whole``, the
     operator at the first instant, is known."""
 

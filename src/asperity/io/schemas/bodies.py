@@ -8,6 +8,7 @@ steel{H=60HRC}                    a material of the library with another strengt
 steel{Y=400MPa,hardening=linear(2GPa)}   and with what plastic flow needs; also swift(0.2) and
                                   voce(100MPa,20)
 copper{k=390W/(m*K),rho=58MS/m}   and with another conductivity of heat or current
+DLC{kw=1e-7mm^3/Nm}:2um/steel     and with a wear coefficient
 DLC:5nm/Cr:2nm/steel              5 nm of DLC on 2 nm of Cr on steel
 DLC:5nm~/rigid                    ~ : the layer slips without friction on what lies below it
 E=3MPa+10MPa@10ms,nu=0.5          10 MPa of Young's modulus relax in 10 ms; further ways in
@@ -39,6 +40,7 @@ from ...core.values import (
     ThermalConductivity,
     ThermalExpansion,
     VolumetricHeatCapacity,
+    WearCoefficient,
 )
 from ...solids.relaxation_text import AT
 from .relaxation import SYMBOLS as RELAXING
@@ -56,9 +58,9 @@ FLOW = ("yield_stress", "hardening", "kinematic", "recall")
 CONDUCTS = ("thermal_conductivity", "electrical_resistivity", "volumetric_heat_capacity", "thermal_expansion")
 """Keys of what conducts, stores heat and expands."""
 
-BESIDE = ("hardness", *FLOW, *CONDUCTS)
-"""Keys of the strength and of what conducts, which elastic constants may bring along, and a named
-material, too: they replace those of the library."""
+BESIDE = ("hardness", *FLOW, "wear_coefficient", *CONDUCTS)
+"""Keys of the strength, of wear and of what conducts, which elastic constants may bring along, and
+a named material, too: they replace those of the library."""
 
 
 def _text_too(schema: dict[str, Any]) -> None:
@@ -138,6 +140,7 @@ class MaterialTable(Settings):
     hardening: Annotated[AnyHardening | None, BeforeValidator(_hardening_from_text)] = None
     kinematic: NonNegativePressure | None = None
     recall: NonNegative | None = None
+    wear_coefficient: WearCoefficient | None = setting(None, help="k_w: 1e-6 mm^3/Nm")
     thermal_conductivity: ThermalConductivity | None = setting(None, help="k: 50 W/(m*K)")
     electrical_resistivity: ElectricalResistivity | None = setting(None, help="ρ: 17 nohm*m, or its inverse in S/m")
     volumetric_heat_capacity: VolumetricHeatCapacity | None = setting(None, help="ρc: 3.7 MJ/(m^3*K)")
@@ -280,6 +283,7 @@ SYMBOLS = MappingProxyType(
         "hardening": "hardening",
         "kinematic": "kinematic",
         "recall": "recall",
+        "kw": "wear_coefficient",
         "k": "thermal_conductivity",
         "rho": "electrical_resistivity",
         "C": "volumetric_heat_capacity",

@@ -18,6 +18,7 @@ from ...core.quantity import Quantity
 from ...core.values import Length, Pressure
 from ..ask import BY_RADIUS, Way
 from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, PoissonOfSolid, Radius, Theory, Work, checked
+from ..single.coating import softening
 from .short_range import CoatedJKR, CoatedState
 
 WIDEST = 100.0
@@ -84,13 +85,8 @@ class AdhesiveCoatedSphere(Theory):
     def excess(self, wavenumber: RealArray) -> RealArray:
         """M of ``wavenumber`` q in rad/m, >= 0, of any shape: by how much the base makes the
         coating more compliant."""
-        shear = (self.coating / (1.0 + self.coating_nu)) / (self.base / (1.0 + self.base_nu))
-        kappa = (shear - 1.0) / (shear + 3.0 - 4.0 * self.coating_nu)
-        lam = 1.0 - 4.0 * (1.0 - self.coating_nu) / (1.0 + shear * (3.0 - 4.0 * self.base_nu))
-        xi = wavenumber * self.thickness
-        e = np.exp(-2.0 * xi)
-        rise = e * (lam + kappa + 4.0 * kappa * xi * (1.0 + xi) - 2.0 * lam * kappa * e)
-        return np.asarray(rise / (1.0 - e * (lam + kappa + 4.0 * kappa * xi**2 - lam * kappa * e)))
+        moduli = self.coating, self.base
+        return softening(wavenumber, *moduli, self.thickness, self.coating_nu, self.base_nu)
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
         """The contact of the ``contact_radius`` a in m, > 0, of any shape; its pressure is

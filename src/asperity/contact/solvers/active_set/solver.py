@@ -498,12 +498,13 @@ class ActiveSet(Iterative):
         Accuracy is wasted on a set that will change: only once few points enter or leave is it
         worth having, and only once none does is the system solved to what the tolerance needs.
         """
-        changed, settled = free.entering + memory.clipped, memory.settled(free)
+        changed, settled, operator = free.entering + memory.clipped, memory.settled(free), memory.work.qp.operator
         wanted = (
             _MARGIN * self.tolerance / error if error > 0.0 else 1.0
         )  # reduction of the error that reaches the tolerance
-        alone = memory.unsuccessful is None and not memory.fallbacks
-        ends = not (self.monotone or self._guess)  # the last step may be one whose length is not measured
+        alone = memory.unsuccessful is None and not memory.fallbacks and operator.translation_invariant
+        # the last step may be one whose length is not measured, where the model has the right size
+        ends = not (self.monotone or self._guess) and operator.translation_invariant
         if ends and wanted >= _SINGLE and (settled or alone):
             return _LAST if wanted >= _CLOSELY else _LAST_CLOSELY
         if alone:

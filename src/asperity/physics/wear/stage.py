@@ -1,0 +1,149 @@
+"""One implicit stretch of sliding: the contact whose pressure wears the surfaces while it acts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from ...contact.controls import Step
+from ...contact.couplings.protocol import Coupling, Deflections, Exchange, Memory, Posed
+from ...contact.solve import Prepared
+from ...contact.state import InterfaceState
+from ...core.arrays import RealArray
+from ...core.status import Outcome, Status
+from .losses import Doses, Linearised, Losses
+from .operator import WearOperator
+
+_MOST = 40
+"""Contacts at most within one stretch, each with the stages of wear that the last one has shown;
+break-through takes two to five."""
+
+_CHORDS_FROM = 8
+"""Contact from which on points that go to and fro between two stages take the chord of both."""
+
+_AGREES = 1e-7
+"""Miss of the depth over the largest lost in the stretch, or over the height of the surfaces, at
+which the stages agree with the contact."""
+
+
+@dataclass(frozen=True, eq=False)
+class Hollow(Coupling):
+    """What is lost whatever the pressure, ``depth`` (nx, ny) in m, as a displacement."""
+
+    depth: RealArray
+    name: ClassVar[str] = "wear"
+    feedback: ClassVar[bool] = False
+    remedy: ClassVar[str] = ""
+
+    def begin(self, posed: Posed, memory: Memory) -> Exchange:
+        """The depth, which stays."""
+        return Exchange(self.depth, self.depth)
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """What one stretch comes to: its ``pressure`` (nx, ny) in Pa, the displacement by it without
+    wear (m), how it ended, and the work: FFT ``pairs`` and number of ``contacts``."""
+
+    pressure: RealArray
+    displacement: RealArray
+    status: Status
+    pairs: float
+    contacts: int
+
+
+def implicit_stage(
+    prepared: Prepared,
+    step: Step,
+    state: InterfaceState,
+    losses: Losses,
+    stretch: Stretch,
+    ahead: float | None = None,
+) -> Stage:
+    """Contact at the end of ``stretch`` under ``step``, started from ``state``, the surfaces of
+    ``prepared`` being those at its begin.
+
+    The depth is piecewise linear in the pressure, so that the contact with the slopes of the last
+    pressure (Newton's method) is the answer as soon as no point changes its stage. ``ahead``:
+    length of the stretch over the one before, in which pressures are extrapolated to start from.
+    """
+    guess, earlier = state.pressure, None
+    pairs, slid = 0.0, stretch.slid
+    scale = float(np.ptp(prepared.profile)) or 1.0
+    model = losses.linearised(stretch.before, stretch.doses, guess, slid)
+    for count in range(1, _MOST + 1):
+        touching = guess > 0.0
+        typical = None
+        if isinstance(model.bed, np.ndarray) and touching.any():
+            typical = float(model.bed[touching].mean())
+        operator = WearOperator(prepared.operator, model.bed, model.track, typical)
+        begun = _begun(state, model, operator) if count == 1 else InterfaceState(guess, state.memory)
+        hollow = model.start if model.start.any() else None
+        settled = prepared.settled(
+            step,
+            begun,
+            operator=operator,
+            retarded=hollow,
+            ahead=ahead if count == 1 else None,
+            couplings=prepared.couplings if hollow is None else (*prepared.couplings, Hollow(hollow)),
+        )
+        found = settled.contact
+        own = found.solution.state
+        pairs += own.applications * operator.pairs_per_application + own.extra_pairs
+        pressure = found.pressure
+        worn = model.depth(pressure) - model.start
+        wanted = losses.hollow(losses.after(stretch.doses, pressure, slid)) - losses.hollow(stretch.before)
+        miss = float(np.abs(wanted - worn - model.start).max())
+        enough = _AGREES * max(float(np.abs(wanted).max()), _AGREES * scale)
+        status = settled.status
+        if not status.converged or miss <= enough:
+            break
+        following = losses.linearised(stretch.before, stretch.doses, pressure, slid)
+        if count >= _CHORDS_FROM and earlier is not None:
+            following = _chords(following, losses, stretch, pressure, earlier)
+        earlier, guess, model = pressure, pressure, following
+    else:
+        status = Status(
+            Outcome.ITERATION_LIMIT,
+            f"Not converged: the stages of wear still change the depth by {miss:.1e} m after {_MOST} contacts.",
+            "Take more steps ({wear.steps}).",
+        )
+    return Stage(pressure, own.deflection - worn, status, pairs, count)
+
+
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """A stretch of ``slid`` (m, or a map of it) that begins with ``doses``; depths count from
+    ``before``, at which the surfaces of the contact are."""
+
+    before: Doses
+    doses: Doses
+    slid: float | RealArray
+
+
+def _begun(state: InterfaceState, model: Linearised, operator: WearOperator) -> InterfaceState:
+    """``state`` with the displacements that its pressures cause with wear, where those without are
+    known."""
+    pairs = []
+    known = state.deflections
+    for pressure in (state.pressure, state.earlier):
+        plain = None if known is None or pressure is None else known.by(pressure, operator.whole)
+        if pressure is None or plain is None:
+            return replace(state, deflections=None, earlier=None)
+        pairs.append((pressure, plain + model.depth(pressure) - model.start))
+    return replace(state, deflections=Deflections(operator.compliance, operator.boundary, operator.grid, tuple(pairs)))
+
+
+def _chords(model: Linearised, losses: Losses, stretch: Stretch, pressure: RealArray, other: RealArray) -> Linearised:
+    """``model`` with the slope between two pressures where they are in different stages."""
+    if model.track is not None:
+        return model
+    depths = [losses.hollow(losses.after(stretch.doses, p, stretch.slid)) for p in (pressure, other)]
+    apart = pressure - other
+    moved = np.abs(apart) > 1e-12 * float(pressure.max())
+    chord = np.where(moved, (depths[0] - depths[1]) / np.where(moved, apart, 1.0), 0.0)
+    bed = np.where(moved, np.maximum(chord, 0.0), np.broadcast_to(model.bed, pressure.shape))
+    start = depths[0] - losses.hollow(stretch.before) - bed * pressure
+    return Linearised(start, bed, None)

@@ -1,0 +1,1 @@
+"""Theories of wear: laws, pins and tracks, running-in of waves, punches and spheres."""
