@@ -342,14 +342,17 @@ def test_the_example_of_flash_temperatures(capsys):
     assert capsys.readouterr().out.count("into the body") == 2
 
 
-def test_the_example_of_wear(capsys):
+def test_the_examples_of_wear(capsys):
     page, names = ROOT / "docs/how-to/wear.md", {}
-    (code,) = blocks(page, "python")
+    code, of_stresses = blocks(page, "python")
     exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
     first, last = (names["history"].kept[end][1] for end in (0, -1))
     assert last.area_fraction > 2.0 * first.area_fraction
     assert last.max_pressure < 0.5 * first.max_pressure
     assert "bare after" in capsys.readouterr().out
+    exec(compile(of_stresses, page.name, "exec"), names)  # noqa: S102
+    factors = [float(line.split()[4]) for line in capsys.readouterr().out.splitlines()]
+    assert factors == sorted(factors), "it bears more as it wears"
 
 
 def test_the_commands_of_wear(tmp_path, monkeypatch):
