@@ -26,6 +26,7 @@ ONLY_FOR = {
     "asperity.run.tractions": ("stress",),
     "asperity.report.tractions": ("stress",),
     "asperity.report.animation": ("indentation", "plastic_flow"),
+    "asperity.report.animation_wear": ("wear",),
 }
 """Modules outside the folders that serve some physics alone: loads without a contact, pictures of
 plastic zones."""

@@ -151,11 +151,16 @@ def test_iteration_limit_is_reported_with_a_remedy(solver: Solver, case: Case) -
 @pytest.mark.parametrize("solver", [SteepestDescent(1e-30), QuasiNewton(1e-30)], ids=pair_id)
 @some_cases
 def test_a_stall_is_flagged_not_accepted(solver: Solver, case: Case) -> None:
+    """On some processors rounding leaves an error of zero to the last digit, which is no stall."""
     solution = solved(case, solver)[1]
+    assert solution.state.error < 1e-6
+    if solution.state.error <= solver.tolerance:
+        assert solution.state.error == 0.0
+        assert solution.status.outcome is Outcome.CONVERGED
+        return
     assert solution.status.outcome is Outcome.STAGNATED
     assert solution.state.exhausted or solution.state.iterations >= 500
     assert "another solver" in solution.status.remedy
-    assert solution.state.error < 1e-6
 
 
 @pytest.mark.parametrize("name", ["nnls", "dense_active_set", "lemke"])

@@ -165,6 +165,20 @@ the place of a flat maximum, which has half of the digits."""
 SCANNED = sorted(set(THEORIES) - LEFT_OUT)
 
 
+ROUNDINGS = 8.0 * np.finfo(float).eps
+"""Relative error of a separation to which Newton's method comes."""
+
+
+def rounded(columns: dict[str, np.ndarray]) -> float:
+    """Relative error of the pressure by the rounding of the separation that was found for it: the
+    stiffness times that."""
+    if not {"stiffness", "separation", "pressure"} <= columns.keys():
+        return 0.0
+    with np.errstate(all="ignore"):
+        found = ROUNDINGS * np.abs(columns["stiffness"] * columns["separation"] / columns["pressure"])
+    return float(np.nanmax(found[np.isfinite(found)], initial=0.0))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCANNED)
 def test_no_integral_misses_a_layer(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -172,7 +186,8 @@ def test_no_integral_misses_a_layer(name: str, monkeypatch: pytest.MonkeyPatch) 
     all is refused.
 
     1e-6 is a tenth of what the least exact of them, the adhesive summits of Fuller and Tabor,
-    states of itself.
+    states of itself. Where a separation was found for a pressure, its rounding is more where the
+    contact is stiff.
     """
     users = [
         module
@@ -202,6 +217,7 @@ def test_no_integral_misses_a_layer(name: str, monkeypatch: pytest.MonkeyPatch) 
                         break
                     found.append([np.atleast_1d(values).copy() for _, values in (*answer.numbers, *answer.columns)])
                 else:
+                    rounding = rounded(dict((item.name, values) for item, values in answer.columns))
                     for usual, fine in zip(*found, strict=True):
                         for values in (usual, fine):  # stiffness where no gap is left
                             values[np.abs(values) > 1e100] = np.inf
@@ -209,6 +225,6 @@ def test_no_integral_misses_a_layer(name: str, monkeypatch: pytest.MonkeyPatch) 
                         least = 1e-12 * float(
                             finite.max(initial=0.0)
                         )  # Persson's gap next to full contact: a spline within 1e-13
-                        assert usual == pytest.approx(fine, rel=1e-6, abs=least, nan_ok=True), (change, asked)
+                        assert usual == pytest.approx(fine, rel=max(1e-6, rounding), abs=least, nan_ok=True), (change, asked)
                     compared += 1
     assert compared > 0
