@@ -40,11 +40,22 @@ SQRT_J2, SQRT_J2_ERROR = 0.345, 0.03
 """Largest √J₂ below a half-space with ν = 0.3 over the largest pressure of a pixel, and the
 relative error that covers loads and pixels."""
 
+SLACK = 0.03
+"""Share by which groups may leave the ranges of the table: those of one pixel differ so much with
+the size of the map."""
+
 LEAST_PIXELS = 20.0
 """Pixels in contact below which a row of the table is not used, and nothing is predicted."""
 
 FULLEST = 0.97
 """Share of area in contact above which the curve of the area is not fitted: it holds no digits."""
+
+LEAST_GAP = 0.3
+"""Mean gap over the rms height below which nothing is said of menisci: liquid fills what is
+left."""
+
+MENISCI_ERROR = 0.04
+"""Relative error of the area of menisci at a given gap."""
 
 LAYERED_GAP = 0.02
 """Standard error of the gap over the rms height that a layer adds (24 layers and five loads)."""
@@ -119,8 +130,8 @@ class Range:
     high: float
 
     def holds(self, value: float) -> bool:
-        """Whether ``value`` is within, up to rounding."""
-        return self.low * (1.0 - 1e-9) <= value <= self.high * (1.0 + 1e-9)
+        """Whether ``value`` is within, or a little beyond."""
+        return self.low * (1.0 - SLACK) <= value <= self.high * (1.0 + SLACK)
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,6 +152,7 @@ class Curve:
         return cls(powers, found, math.sqrt(float(left @ left / (weights @ weights))))
 
     def __call__(self, *variables: float) -> float:
+        """Value at one point."""
         return float(_terms(np.array([variables]), self.powers)[0] @ self.coefficients)
 
 
@@ -207,6 +219,8 @@ class Predictor:
     scatters: Mapping[str, Curve]
     factors: Factors
     ranges: tuple[Range, ...]
+    samples: float
+    """Surfaces per row of the table."""
 
     @classmethod
     def of(cls, master: Sequence[Row], layer: Sequence[Row]) -> Self:
@@ -223,7 +237,7 @@ class Predictor:
             area = column[name][used]
             slope = np.log(2.0 / math.sqrt(math.pi) * special.erfinv(area) / column["y"][used])
             curves[name] = Curve.fitted(
-                at[used, :2], slope, np.hypot(error[name][used] / area, 0.005), _up_to((3, 2), 3)
+                at[used, :2], slope, np.hypot(error[name][used] / area, 0.005), _up_to((4, 2), 4)
             )
             scatters[name] = _scatter(at[used], column[f"{name}_sd"][used] / area)
         peak, gap = column["peak"], column["gap"]
@@ -235,10 +249,10 @@ class Predictor:
         of_gap = np.stack([gap, at[:, 1]], axis=1)
         for height in MENISCI:
             share = column[f"menisci_{height:g}"] / (1.0 - column["area_pixels"])
-            used = (share > 1e-4) & (share < 1.0 - 1e-4)
+            used = (share > 1e-4) & (share < 1.0 - 1e-4) & (gap > LEAST_GAP)
             even = np.ones(int(used.sum()))
-            curves[_menisci(height)] = Curve.fitted(of_gap[used], special.ndtri(share[used]), even, _up_to((4, 2), 4))
-        return cls(curves, scatters, Factors.of(layer), _ranges(column, layer))
+            curves[_menisci(height)] = Curve.fitted(of_gap[used], special.ndtri(share[used]), even, _up_to((5, 2), 5))
+        return cls(curves, scatters, Factors.of(layer), _ranges(column, layer), float(np.median(column["samples"])))
 
     def outside(self, groups: Groups) -> list[tuple[Range, float]]:
         """Ranges of the table that ``groups`` leave, each with the value."""
@@ -257,21 +271,24 @@ class Predictor:
         # by how much the share changes with the logarithm of the slope
         change = 2.0 / math.sqrt(math.pi) * math.exp(-(argument**2)) * argument
         scatter = share * math.exp(self.scatters[name](*variables))
-        return self._layered(Expected(share, change * self.curves[name].error, scatter), groups, name)
+        error = math.hypot(change * self.curves[name].error, self._of_few(scatter))
+        return self._layered(Expected(share, error, scatter), groups, name)
 
     def peak(self, groups: Groups) -> Expected:
         """Largest pressure of a pixel over the rms pressure of full contact."""
         variables = _variables(groups.y, groups.nayak, groups.size)
         value = math.exp(self.curves["peak"](*variables))
         scatter = value * math.exp(self.scatters["peak"](*variables))
-        return self._layered(Expected(value, value * self.curves["peak"].error, scatter), groups, "peak")
+        error = math.hypot(value * self.curves["peak"].error, self._of_few(scatter))
+        return self._layered(Expected(value, error, scatter), groups, "peak")
 
     def gap(self, groups: Groups) -> Expected:
         """Mean gap over the rms height."""
         variables = _variables(groups.y, groups.nayak, groups.size)
         value = max(0.0, self.curves["gap"](math.log10(groups.X), variables[1]))
-        error = math.hypot(self.curves["gap"].error, LAYERED_GAP if groups.ratio != 1.0 else 0.0)
-        return Expected(value, error, math.exp(self.scatters["gap"](*variables)))
+        scatter = math.exp(self.scatters["gap"](*variables))
+        error = math.hypot(self.curves["gap"].error, self._of_few(scatter))
+        return Expected(value, math.hypot(error, LAYERED_GAP if groups.ratio != 1.0 else 0.0), scatter)
 
     def menisci(self, groups: Groups, height: float) -> Expected:
         """Share of the area where the surfaces do not touch and the gap is at most ``height`` times
@@ -285,7 +302,11 @@ class Predictor:
 
         value = share(gap.value)
         slope = abs(share(gap.value + 0.01) - value) / 0.01
-        return Expected(value, math.hypot(slope * gap.error, 0.03 * value), slope * gap.scatter)
+        return Expected(value, math.hypot(slope * gap.error, MENISCI_ERROR * value), slope * gap.scatter)
+
+    def _of_few(self, scatter: float) -> float:
+        """Standard error of a mean in the table, of surfaces that ``scatter`` so."""
+        return scatter / math.sqrt(self.samples)
 
     def _layered(self, found: Expected, groups: Groups, name: str) -> Expected:
         return found if groups.ratio == 1.0 else found.times(*self.factors.at(groups, name))
