@@ -25,7 +25,7 @@ import numpy as np
 import asperity as asp
 from asperity.generate import ExponentialAutocorrelation, RmsHeight, SelfAffine, gaussian
 from asperity.studies.predict import Waves
-from asperity.theories.rough.predictor import MENISCI, PERIMETER
+from asperity.theories.rough.predictor import HEIGHTS, PERIMETER, predictor
 
 DATA = Path(asp.__file__).parent / "data" / "predictor"
 BETA, RMS, E, NU = 1e-6, 2e-9, 100e9, 0.3
@@ -71,8 +71,8 @@ def exponential(n: int, size: float, seed: int) -> asp.Surface:
 
 
 def solved(surface: asp.Surface, solid: Any, pressure: float, rms: float, s: float) -> dict[str, float]:
-    """What is kept of one contact: areas as shares, the largest pressure over ``s``, gap and
-    menisci over ``rms``."""
+    """What is kept of one contact: areas as shares, the largest pressure over ``s``, gap
+    and shares of small gaps over ``rms``."""
     result = asp.solve(asp.ContactProblem(surface, solid), asp.MeanPressure(pressure), keep=KEEP)
     contact = result.contact
     edges = sum(float((contact != np.roll(contact, 1, axis)).mean()) for axis in (0, 1))
@@ -82,8 +82,8 @@ def solved(surface: asp.Surface, solid: Any, pressure: float, rms: float, s: flo
         "peak": float(result.pressure.max()) / s,
         "gap": float(result.gap.mean()) / rms,
     }
-    for h in MENISCI:
-        row[f"menisci_{h:g}"] = float((result.gap <= h * rms).mean()) - result.area_fraction
+    for h in HEIGHTS:
+        row[f"below_{h:g}"] = float((result.gap <= h * rms).mean()) - result.area_fraction
     return row
 
 
@@ -182,9 +182,8 @@ def beside(label: str, grid: asp.Grid, spectrum: Any, solid: Any) -> Iterator[di
             row |= {f"{key}_predicted": value.value / unit, f"{key}_error": value.error / unit}
             row[f"{key}_scatter"] = value.scatter / unit
         for height in (0.5, 1.0, 2.0):
-            film = asp.LiquidFilm(surface_tension=1e-12, thickness=height * waves.rms)
-            wet = asp.studies.predict(spectrum, solid, asp.MeanPressure(p), grid=grid, film=film) if y < 0.1 else None
-            row[f"menisci_{height:g}_predicted"] = wet.meniscus_pressure.value / film.suction if wet else np.nan
+            reading = predictor().share_below(found.groups, height) if y < 0.1 else None
+            row[f"below_{height:g}_predicted"] = reading.value if reading else np.nan
         yield row
 
 

@@ -15,7 +15,6 @@ from ..core.grid import Grid
 from ..core.units import parse, parse_size, show
 from ..io.atomic import require_new_file
 from ..io.tables import write_table
-from ..physics.menisci.film import LiquidFilm
 from ..run.build import body_of_text
 from ..solids.elastic import Rigid
 from ..studies.predict import MEANING, Prediction, Rough
@@ -27,7 +26,7 @@ from .declared import FILE, Given, Option, offers
 from .options import LOAD, OUTPUT, body_options, heights_in, levelled_as, own_option, reading_options
 from .show import console, print_advice, print_files, say, table
 
-SURFACE, FILM = "Surface without a file", "Liquid film"
+SURFACE, PULL = "Surface without a file", "Pull"
 NUMBERS = {"rms_height": "--rms-height", "correlation_length": "--correlation-length", "pixel": "--pixel"}
 
 
@@ -46,8 +45,8 @@ def _options() -> list[Option]:
             "LENGTH",
         ),
         make("--pixel", ("rough", "pixel"), "size of a pixel", SURFACE, "LENGTH"),
-        make("--film", ("film", "thickness"), "thickness, and height of the menisci", FILM, "LENGTH"),
-        make("--surface-tension", ("film", "surface_tension"), "of the liquid, such as 72mN/m", FILM, "TENSION"),
+        make("--pull", ("pull", "tension"), "tension where the gap is small; 2γ/h of a liquid film", PULL, "PRESSURE"),
+        make("--reach", ("pull", "reach"), "largest gap across which it pulls; h of a film", PULL, "LENGTH"),
         make("--csv", ("output", "csv"), "write the numbers as a CSV file, in SI", OUTPUT, FILE),
         *reading_options(),
     ]
@@ -87,7 +86,7 @@ def predict(
         _load(given),
         grid=grid,
         counter_body=Rigid() if counter is None else body_of_text(counter, "--counter"),
-        film=_film(given),
+        pull=_pull(given),
     )
     if csv is not None:
         write_table(_rows(found), Path(csv), overwrite=force)
@@ -132,14 +131,13 @@ def _load(given: Given) -> MeanPressure | Force:
     return Force(parse(texts["force"], "force", "--load"))
 
 
-def _film(given: Given) -> LiquidFilm | None:
-    texts = given.under("film").table()
+def _pull(given: Given) -> tuple[float, float] | None:
+    texts = given.under("pull").table()
     if not texts:
         return None
     if len(texts) == 1:
-        raise InputError("--film and --surface-tension must be given together, but one is missing.")
-    tension = parse(texts["surface_tension"], "surface tension", "--surface-tension")
-    return LiquidFilm(surface_tension=tension, thickness=parse(texts["thickness"], "length", "--film"))
+        raise InputError("--pull and --reach must be given together, but one is missing.")
+    return parse(texts["tension"], "pressure", "--pull"), parse(texts["reach"], "length", "--reach")
 
 
 def _rows(found: Prediction) -> list[tuple[Any, ...]]:

@@ -1,11 +1,11 @@
-"""Area, largest pressure, gap and menisci of rough contacts from a table of solved ones.
+"""Area, largest pressure and gap of rough contacts from a table of solved ones.
 
 With s the rms pressure of full contact of the body as it is layered,
 
     s² = Σ |h(q)|²/c(q)²,        y = p/s,
 
 areas and pressures of all loads, moduli and layers nearly fall on curves of y and of Nayak's
-bandwidth α. Gaps and menisci live on longer waves and follow
+bandwidth α. Gaps live on longer waves and follow
 
     X = p β/(E σ ε),        ε = Σ |h|² q^(-1/2)/c / Σ |h|² q^(-1/2)/c_base,
 
@@ -29,14 +29,14 @@ import numpy as np
 from ...core.arrays import RealArray
 from ...core.scipy_parts import special
 
-MENISCI = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0)
+HEIGHTS = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0)
 """Heights over the rms height at which the share of the area below them is tabulated."""
 
 PERIMETER = (math.pi - 1.0 + math.log(2.0)) / 24.0
 """Area in pixels between counted pixels and the contact, per edge between a pixel in contact and
 one outside (Yastrebov, Anciaux & Molinari 2017)."""
 
-SQRT_J2, SQRT_J2_ERROR = 0.345, 0.03
+SQRT_J2, SQRT_J2_ERROR = 0.341, 0.02
 """Largest √J₂ below a half-space with ν = 0.3 over the largest pressure of a pixel, and the
 relative error that covers loads and pixels."""
 
@@ -51,11 +51,10 @@ FULLEST = 0.97
 """Share of area in contact above which the curve of the area is not fitted: it holds no digits."""
 
 LEAST_GAP = 0.3
-"""Mean gap over the rms height below which nothing is said of menisci: liquid fills what is
-left."""
+"""Mean gap over the rms height below which nothing is said of the share of small gaps."""
 
-MENISCI_ERROR = 0.04
-"""Relative error of the area of menisci at a given gap."""
+BELOW_ERROR = 0.04
+"""Relative error of the share of small gaps at a given mean gap."""
 
 LAYERED_GAP = 0.02
 """Standard error of the gap over the rms height that a layer adds (24 layers and five loads)."""
@@ -247,11 +246,11 @@ class Predictor:
         curves["gap"] = Curve.fitted(of_load, gap, np.hypot(error["gap"], 0.01), _up_to((5, 2), 5))
         scatters["gap"] = _scatter(at, column["gap_sd"])
         of_gap = np.stack([gap, at[:, 1]], axis=1)
-        for height in MENISCI:
-            share = column[f"menisci_{height:g}"] / (1.0 - column["area_pixels"])
+        for height in HEIGHTS:
+            share = column[f"below_{height:g}"] / (1.0 - column["area_pixels"])
             used = (share > 1e-4) & (share < 1.0 - 1e-4) & (gap > LEAST_GAP)
             even = np.ones(int(used.sum()))
-            curves[_menisci(height)] = Curve.fitted(of_gap[used], special.ndtri(share[used]), even, _up_to((5, 2), 5))
+            curves[_below(height)] = Curve.fitted(of_gap[used], special.ndtri(share[used]), even, _up_to((5, 2), 5))
         return cls(curves, scatters, Factors.of(layer), _ranges(column, layer), float(np.median(column["samples"])))
 
     def outside(self, groups: Groups) -> list[tuple[Range, float]]:
@@ -290,19 +289,19 @@ class Predictor:
         error = math.hypot(self.curves["gap"].error, self._of_few(scatter))
         return Expected(value, math.hypot(error, LAYERED_GAP if groups.ratio != 1.0 else 0.0), scatter)
 
-    def menisci(self, groups: Groups, height: float) -> Expected:
+    def share_below(self, groups: Groups, height: float) -> Expected:
         """Share of the area where the surfaces do not touch and the gap is at most ``height`` times
         the rms height."""
         gap, pixels = self.gap(groups), self.area(groups, "area_pixels").value
         bandwidth = _variables(groups.y, groups.nayak, groups.size)[1]
 
         def share(of_gap: float) -> float:
-            values = [self.curves[_menisci(one)](of_gap, bandwidth) for one in MENISCI]
-            return (1.0 - pixels) * float(special.ndtr(np.interp(height, MENISCI, values)))
+            values = [self.curves[_below(one)](of_gap, bandwidth) for one in HEIGHTS]
+            return (1.0 - pixels) * float(special.ndtr(np.interp(height, HEIGHTS, values)))
 
         value = share(gap.value)
         slope = abs(share(gap.value + 0.01) - value) / 0.01
-        return Expected(value, math.hypot(slope * gap.error, MENISCI_ERROR * value), slope * gap.scatter)
+        return Expected(value, math.hypot(slope * gap.error, BELOW_ERROR * value), slope * gap.scatter)
 
     def _of_few(self, scatter: float) -> float:
         """Standard error of a mean in the table, of surfaces that ``scatter`` so."""
@@ -312,8 +311,8 @@ class Predictor:
         return found if groups.ratio == 1.0 else found.times(*self.factors.at(groups, name))
 
 
-def _menisci(height: float) -> str:
-    return f"menisci_{height:g}"
+def _below(height: float) -> str:
+    return f"below_{height:g}"
 
 
 def _variables(y: float, nayak: float, size: float) -> tuple[float, float, float]:
