@@ -20,8 +20,7 @@ from ..solids.elastic import Rigid
 from ..studies.predict import MEANING, Prediction, Rough
 from ..studies.predict import predict as predicted
 from ..surfaces.generate.autocorrelation import ExponentialAutocorrelation
-from ..surfaces.profile import Profile
-from ..surfaces.surface import no_area
+from ..surfaces.profile import Profile, no_area
 from .declared import FILE, Given, Option, offers
 from .options import LOAD, OUTPUT, body_options, heights_in, levelled_as, own_option, reading_options
 from .show import console, print_advice, print_files, say, table
