@@ -25,7 +25,7 @@ import numpy as np
 import asperity as asp
 from asperity.generate import ExponentialAutocorrelation, RmsHeight, SelfAffine, gaussian
 from asperity.studies.predict import Waves
-from asperity.theories.rough.predictor import HEIGHTS, PERIMETER, predictor
+from asperity.theories.rough.predictor import HEIGHTS, MIDDLE, PERIMETER, predictor
 
 DATA = Path(asp.__file__).parent / "data" / "predictor"
 BETA, RMS, E, NU = 1e-6, 2e-9, 100e9, 0.3
@@ -42,7 +42,7 @@ PRESSURES = np.geomspace(1e-4, 3.0, 14)
 """Mean pressure over the rms pressure of full contact."""
 
 LAYER_GRIDS = ((64, 20.0), (128, 20.0), (192, 15.0), (256, 10.0))
-LAYER_PRESSURES = (0.002, 0.006, 0.02, 0.06, 0.2)
+LAYER_PRESSURES = (0.002, 0.006, 0.02, 0.06, 0.2, 0.5)
 RATIOS = (0.25, 0.35, 0.5, 0.7, 1.4, 2.0, 2.8, 4.0, 5.6)
 THICKNESSES = (0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 1.0, 2.0, 5.0)
 LAYER_SEEDS = 4
@@ -129,7 +129,11 @@ def layer() -> Iterator[dict[str, float]]:
                 row: dict[str, float] = {"nayak": nayak, "ratio": ratio, "thickness": thickness}
                 for key in ("area", "area_pixels", "peak"):
                     factors = [one[key] / bare[y][key] for one, y in zip(found, LAYER_PRESSURES, strict=True)]
-                    row[key], row[f"{key}_sd"] = float(np.mean(factors)), float(np.std(factors, ddof=1))
+                    decades = np.log10(np.array(LAYER_PRESSURES) / MIDDLE)
+                    slope, middle = np.polyfit(decades, np.log(factors), 1)
+                    left = np.log(factors) - middle - slope * decades
+                    row |= {key: float(np.exp(middle)), f"{key}_slope": float(slope)}
+                    row[f"{key}_sd"] = float(np.sqrt(left @ left / (left.size - 2)))
                 yield row
 
 
@@ -233,7 +237,7 @@ def main() -> None:
         ),
         "layer": (
             layer,
-            f"factors of one layer at equal y, {LAYER_SEEDS} surfaces, mean and sd over y = {LAYER_PRESSURES}",
+            f"factors of one layer at y = {MIDDLE}, slope of their logarithm per decade of y and what it leaves, over y = {LAYER_PRESSURES}, {LAYER_SEEDS} surfaces",
         ),
         "withheld": (withheld, "contacts that the tables have not seen, solved and predicted"),
         "stress": (lambda: stressed(given.seeds), "largest sqrt(J2) over the largest pressure on a half-space, nu 0.3"),

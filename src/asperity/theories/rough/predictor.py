@@ -172,6 +172,10 @@ def table(name: str) -> list[dict[str, float]]:
     return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
 
 
+MIDDLE, LAYER_LOADS = 0.02, (0.002, 0.5)
+"""Mean pressure over that of full contact at which the factors of a layer are tabulated, beside
+their slope over its logarithm, and between which the slope holds."""
+
 LAYER_AXES = ("nayak", "ratio", "thickness")
 
 
@@ -189,7 +193,7 @@ class Factors:
         axes = [sorted({row[name] for row in rows} | ({1.0} if name == "ratio" else set())) for name in LAYER_AXES]
         values = {}
         for name in ("area", "area_pixels", "peak"):
-            for key, bare in ((name, 1.0), (f"{name}_sd", 0.0)):
+            for key, bare in ((name, 1.0), (f"{name}_slope", 0.0), (f"{name}_sd", 0.0)):
                 values[key] = np.full([len(axis) for axis in axes], bare)
                 for row in rows:
                     place = tuple(axis.index(row[of]) for axis, of in zip(axes, LAYER_AXES, strict=True))
@@ -197,7 +201,8 @@ class Factors:
         return cls(tuple(np.log(axis) for axis in axes), values)
 
     def at(self, groups: Groups, name: str) -> tuple[float, float]:
-        """Factor on the quantity ``name``, and its relative standard error."""
+        """Factor on the quantity ``name``, and its relative standard error: what the slope leaves of
+        the loads."""
         weights, places = [], []
         for value, axis in zip((groups.nayak, groups.ratio, groups.thickness), self.axes, strict=True):
             inside = min(max(math.log(value), float(axis[0])), float(axis[-1]))
@@ -206,8 +211,11 @@ class Factors:
             weights.append(np.array([1.0 - share, share]))
             places.append(slice(low, low + 2))
         cube = np.einsum("i,j,k->ijk", *weights)
-        factor = float(np.sum(cube * self.values[name][tuple(places)]))
-        return factor, float(np.sum(cube * self.values[f"{name}_sd"][tuple(places)])) / factor
+        middle, slope, error = (
+            float(np.sum(cube * self.values[key][tuple(places)])) for key in (name, f"{name}_slope", f"{name}_sd")
+        )
+        load = min(max(groups.y, LAYER_LOADS[0]), LAYER_LOADS[1])
+        return middle * math.exp(slope * math.log10(load / MIDDLE)), error
 
 
 @dataclass(frozen=True, eq=False)
