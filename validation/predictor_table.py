@@ -237,7 +237,8 @@ def main() -> None:
         ),
         "layer": (
             layer,
-            f"factors of one layer at y = {MIDDLE}, slope of their logarithm per decade of y and what it leaves, over y = {LAYER_PRESSURES}, {LAYER_SEEDS} surfaces",
+            f"factors of one layer at y = {MIDDLE}, slope of their logarithm per decade of y and what it leaves, over "
+            f"y = {LAYER_PRESSURES}, {LAYER_SEEDS} surfaces",
         ),
         "withheld": (withheld, "contacts that the tables have not seen, solved and predicted"),
         "stress": (lambda: stressed(given.seeds), "largest sqrt(J2) over the largest pressure on a half-space, nu 0.3"),

@@ -43,7 +43,7 @@ def _options() -> list[Option]:
             SURFACE,
             "LENGTH",
         ),
-        make("--pixel", ("rough", "pixel"), "size of a pixel", SURFACE, "LENGTH"),
+        make("--pixel", ("rough", "pixel"), "size of a pixel; --size is that of the surface", SURFACE, "LENGTH"),
         make("--pull", ("pull", "tension"), "tension where the gap is small; 2γ/h of a liquid film", PULL, "PRESSURE"),
         make("--reach", ("pull", "reach"), "largest gap across which it pulls; h of a film", PULL, "LENGTH"),
         make("--csv", ("output", "csv"), "write the numbers as a CSV file, in SI", OUTPUT, FILE),

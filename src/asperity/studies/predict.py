@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, Self, TypeAlias
+from typing import Any, ClassVar, Self, TypeAlias
 
 import numpy as np
 
@@ -229,6 +229,7 @@ class Prediction:
     groups: Groups
     waves: Waves
     findings: tuple[Advice, ...] = ()
+    citation_keys: ClassVar[tuple[str, ...]] = ("Nayak1971", "Peng2001", "Yastrebov2017")
 
     def values(self) -> list[tuple[Quantity, Expected]]:
         """Every number that is known, with name, unit and label."""

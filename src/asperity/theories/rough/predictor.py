@@ -56,8 +56,9 @@ LEAST_GAP = 0.3
 BELOW_ERROR = 0.04
 """Relative error of the share of small gaps at a given mean gap."""
 
-LAYERED_GAP = 0.02
-"""Standard error of the gap over the rms height that a layer adds (24 layers and five loads)."""
+LAYERED_GAP = 0.03
+"""Standard error of the gap over the rms height that a layer adds, per unit of the logarithm of its
+modulus over that of the base."""
 
 Row: TypeAlias = Mapping[str, float]
 Powers: TypeAlias = tuple[tuple[int, ...], ...]
@@ -201,8 +202,8 @@ class Factors:
         return cls(tuple(np.log(axis) for axis in axes), values)
 
     def at(self, groups: Groups, name: str) -> tuple[float, float]:
-        """Factor on the quantity ``name``, and its relative standard error: what the slope leaves of
-        the loads."""
+        """Factor on the quantity ``name``, and its relative standard error, by what the slope
+        leaves of the loads."""
         weights, places = [], []
         for value, axis in zip((groups.nayak, groups.ratio, groups.thickness), self.axes, strict=True):
             inside = min(max(math.log(value), float(axis[0])), float(axis[-1]))
@@ -295,7 +296,7 @@ class Predictor:
         value = max(0.0, self.curves["gap"](math.log10(groups.X), variables[1]))
         scatter = math.exp(self.scatters["gap"](*variables))
         error = math.hypot(self.curves["gap"].error, self._of_few(scatter))
-        return Expected(value, math.hypot(error, LAYERED_GAP if groups.ratio != 1.0 else 0.0), scatter)
+        return Expected(value, math.hypot(error, LAYERED_GAP * math.log(groups.ratio)), scatter)
 
     def share_below(self, groups: Groups, height: float) -> Expected:
         """Share of the area where the surfaces do not touch and the gap is at most ``height`` times
