@@ -186,4 +186,4 @@ def _print(found: Prediction) -> None:
     groups += [("rms height", show(found.waves.rms, "m")), ("10 % length", show(found.waves.length, "m"))]
     console().print(table("Groups", groups))
     print_advice(found.findings)
-    say("Solved: `asperity contact FILE` with the same options.", "dim")
+    say("To solve it: `asperity contact FILE` with the same body and load.", "dim")
