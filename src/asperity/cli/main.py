@@ -40,6 +40,7 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         **dict.fromkeys(("run", "status", "collect"), "campaigns"),
         "app": "app",
         "info": "info",
+        "predict": "predict",
         "generate": "generate",
         "theory": "theory",
         **dict.fromkeys(("materials", "liquids"), "materials"),

@@ -52,6 +52,7 @@ ACTIONS = MappingProxyType(
         # files and folders
         "overwrite": Action("overwrite it with overwrite=True", "overwrite it with --force", "remove it"),
         "folder": Action("another folder", "another folder (--out)", "another folder"),
+        "solve": Action("solve(ContactProblem(surface, body), ...)", "asperity contact FILE", "the page Run"),
         "run": Action("run(document)", "asperity contact --from DOCUMENT", "the page Run"),
         # preparation
         "fill": Action("filled(surface)", "--fill harmonic", "Prepare: fill"),

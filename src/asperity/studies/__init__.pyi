@@ -1,9 +1,24 @@
 from ..cli.press import press
 from ..run.execute import Outcome
 from ..run.run import run
+from ..theories.rough.predictor import Expected
 from .campaign import Campaign, open_study, run_study
 from .collect import CampaignState
 from .compare import compare
 from .comparison import Comparison
+from .predict import Prediction, predict
 
-__all__ = ["Campaign", "CampaignState", "Comparison", "Outcome", "compare", "open_study", "press", "run", "run_study"]
+__all__ = [
+    "Campaign",
+    "CampaignState",
+    "Comparison",
+    "Expected",
+    "Outcome",
+    "Prediction",
+    "compare",
+    "open_study",
+    "predict",
+    "press",
+    "run",
+    "run_study",
+]

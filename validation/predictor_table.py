@@ -1,0 +1,252 @@
+"""Solves the contacts behind ``asperity.predict`` and writes its tables.
+
+    python validation/predictor_table.py [--seeds 16] [--only master,layer,stress,withheld]
+
+Surfaces have an exponential autocorrelation whose 10 % length β is the unit of length, and press on
+a half-space or on one layer. Everything is kept by dimensionless groups, so the numbers of metres
+and pascals do not matter. The tables stand in ``src/asperity/data/predictor``; their first lines
+record seeds and commit. To enlarge them give more ``--seeds``, or add to ``GRIDS``, ``PRESSURES``,
+``RATIOS`` and ``THICKNESSES``: the functions that read the tables take any rows.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import subprocess
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+import asperity as asp
+from asperity.generate import ExponentialAutocorrelation, RmsHeight, SelfAffine, gaussian
+from asperity.studies.predict import Waves
+from asperity.theories.rough.predictor import HEIGHTS, MIDDLE, PERIMETER, predictor
+
+DATA = Path(asp.__file__).parent / "data" / "predictor"
+BETA, RMS, E, NU = 1e-6, 2e-9, 100e9, 0.3
+GRIDS = (
+    *((32, 10.0), (64, 20.0), (128, 40.0)),
+    *((64, 10.0), (128, 20.0), (256, 40.0)),
+    *((128, 10.0), (256, 20.0), (512, 40.0)),
+    *((256, 10.0), (512, 20.0)),
+    *((512, 10.0),),
+)
+"""Points along a side, and side over β."""
+
+PRESSURES = np.geomspace(1e-4, 3.0, 14)
+"""Mean pressure over the rms pressure of full contact."""
+
+LAYER_GRIDS = ((64, 20.0), (128, 20.0), (192, 15.0), (256, 10.0))
+LAYER_PRESSURES = (0.002, 0.006, 0.02, 0.06, 0.2, 0.5)
+RATIOS = (0.25, 0.35, 0.5, 0.7, 1.4, 2.0, 2.8, 4.0, 5.6)
+THICKNESSES = (0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 1.0, 2.0, 5.0)
+LAYER_SEEDS = 4
+
+FIRST_SEED = 4900
+KEEP = asp.Keep(stiffness=False)
+
+
+def body(ratio: float = 1.0, thickness: float = 1.0, nu: tuple[float, float] = (NU, NU)) -> Any:
+    """Half-space of E and ν[1], with a layer of ``ratio`` E, ν[0] and ``thickness`` β unless the
+    ratio is one."""
+    base = asp.Elastic(E, nu[1])
+    if ratio == 1.0:
+        return base
+    return asp.Layered([asp.Layer(asp.Elastic(ratio * E, nu[0]), thickness=thickness * BETA)], base=base)
+
+
+def grid_of(n: int, size: float) -> asp.Grid:
+    """Square grid of ``n`` points and a side of ``size`` β."""
+    return asp.Grid((n, n), (size * BETA / n,) * 2)
+
+
+def exponential(n: int, size: float, seed: int) -> asp.Surface:
+    """Realisation ``seed`` of the exponential surface."""
+    return gaussian(grid_of(n, size), ExponentialAutocorrelation(RMS, BETA), seed=seed)
+
+
+def solved(surface: asp.Surface, solid: Any, pressure: float, rms: float, s: float) -> dict[str, float]:
+    """What is kept of one contact: areas as shares, the largest pressure over ``s``, gap
+    and shares of small gaps over ``rms``."""
+    result = asp.solve(asp.ContactProblem(surface, solid), asp.MeanPressure(pressure), keep=KEEP)
+    contact = result.contact
+    edges = sum(float((contact != np.roll(contact, 1, axis)).mean()) for axis in (0, 1))
+    row = {
+        "area_pixels": result.area_fraction,
+        "area": result.area_fraction - PERIMETER * edges,
+        "peak": float(result.pressure.max()) / s,
+        "gap": float(result.gap.mean()) / rms,
+    }
+    for h in HEIGHTS:
+        row[f"below_{h:g}"] = float((result.gap <= h * rms).mean()) - result.area_fraction
+    return row
+
+
+def averaged(rows: Sequence[dict[str, float]]) -> dict[str, float]:
+    """Means and standard deviations over surfaces."""
+    made: dict[str, float] = {"samples": len(rows)}
+    for key in rows[0]:
+        values = np.array([row[key] for row in rows])
+        made[key], made[f"{key}_sd"] = float(values.mean()), float(values.std(ddof=1))
+    return made
+
+
+def master(seeds: int) -> Iterator[dict[str, float]]:
+    """Homogeneous half-space on all grids and at all pressures."""
+    for n, size in GRIDS:
+        count = seeds if n < 512 else max(4, seeds // 2)
+        waves = Waves.of_spectrum(grid_of(n, size), ExponentialAutocorrelation(RMS, BETA), body())
+        surfaces = [exponential(n, size, FIRST_SEED + number) for number in range(count)]
+        for y in PRESSURES:
+            p = y * waves.full_contact
+            rows = [solved(surface, body(), p, waves.rms, waves.full_contact) for surface in surfaces]
+            groups = {"points": n, "size": size, "pixel": size / n, "nayak": waves.nayak, "y": y}
+            groups["X"] = p * BETA / (waves.modulus * waves.rms)
+            yield groups | averaged(rows)
+
+
+def layer() -> Iterator[dict[str, float]]:
+    """One layer: factors on the values of the half-space at the same y, on the same surfaces."""
+    spectrum = ExponentialAutocorrelation(RMS, BETA)
+    for n, size in LAYER_GRIDS:
+        surfaces = [exponential(n, size, FIRST_SEED + number) for number in range(LAYER_SEEDS)]
+
+        def at(solid: Any, y: float, surfaces: Any = surfaces, n: int = n, size: float = size) -> Any:
+            waves = Waves.of_spectrum(grid_of(n, size), spectrum, solid)
+            return [solved(one, solid, y * waves.full_contact, RMS, waves.full_contact) for one in surfaces]
+
+        bare = {y: averaged(at(body(), y)) for y in LAYER_PRESSURES}
+        for ratio in RATIOS:
+            for thickness in THICKNESSES:
+                solid = body(ratio, thickness)
+                found = [averaged(at(solid, y)) for y in LAYER_PRESSURES]
+                nayak = Waves.of_spectrum(grid_of(n, size), spectrum, solid).nayak
+                row: dict[str, float] = {"nayak": nayak, "ratio": ratio, "thickness": thickness}
+                for key in ("area", "area_pixels", "peak"):
+                    factors = [one[key] / bare[y][key] for one, y in zip(found, LAYER_PRESSURES, strict=True)]
+                    decades = np.log10(np.array(LAYER_PRESSURES) / MIDDLE)
+                    slope, middle = np.polyfit(decades, np.log(factors), 1)
+                    left = np.log(factors) - middle - slope * decades
+                    row |= {key: float(np.exp(middle)), f"{key}_slope": float(slope)}
+                    row[f"{key}_sd"] = float(np.sqrt(left @ left / (left.size - 2)))
+                yield row
+
+
+WITHHELD = (
+    *((192, 25.0, 1.0, 1.0, NU, NU), (144, 30.0, 1.0, 1.0, NU, NU), (240, 12.0, 1.0, 1.0, NU, NU)),
+    *((192, 25.0, 3.0, 0.7, NU, NU), (144, 20.0, 1.4, 0.3, NU, NU), (216, 18.0, 0.35, 0.08, NU, NU)),
+    *((160, 30.0, 2.5, 0.05, NU, NU), (160, 16.0, 5.0, 0.15, NU, NU), (200, 16.0, 0.3, 0.03, NU, NU)),
+    *((160, 16.0, 3.0, 0.15, 0.2, 0.4), (160, 16.0, 3.0, 0.15, 0.4, 0.2), (160, 16.0, 0.4, 0.15, 0.4, 0.2)),
+)
+"""Points, side over β, E1/E2, thickness over β, ν1 and ν2 of contacts that the tables have not
+seen."""
+
+SELF_AFFINE = ((0.8, 0.3, 4.0), (0.8, 0.6, 4.0), (0.8, 0.0, 4.0), (0.5, 0.3, 4.0), (0.3, 0.3, 4.0), (0.8, 0.3, 10.0))
+"""Hurst exponent, shortest and roll-off wavelength over β of surfaces of another kind."""
+
+WITHHELD_PRESSURES = (0.003, 0.03, 0.3)
+WITHHELD_SEEDS = range(7001, 7009)
+
+
+def withheld() -> Iterator[dict[str, Any]]:
+    """Contacts that the tables have not seen, solved on eight surfaces and predicted."""
+    for n, size, ratio, thickness, *nu in WITHHELD:
+        solid = body(ratio, thickness, (nu[0], nu[1]))
+        label = f"exponential, E1/E2 {ratio:g}, h {thickness:g} β, ν {nu[0]:g} and {nu[1]:g}"
+        yield from beside(label, grid_of(n, size), ExponentialAutocorrelation(RMS, BETA), solid)
+    for hurst, shortest, rolloff in SELF_AFFINE:
+        waves = {"shortest_wavelength": shortest * BETA, "rolloff_wavelength": rolloff * BETA}
+        model = SelfAffine(amplitude=RmsHeight(RMS), hurst=hurst, **waves)
+        label = f"self-affine, H {hurst:g}, λs {shortest:g} β, λr {rolloff:g} β"
+        with suppress(asp.InputError):  # a bandwidth beyond the table
+            yield from beside(label, grid_of(256, 30.0), model, body())
+
+
+def beside(label: str, grid: asp.Grid, spectrum: Any, solid: Any) -> Iterator[dict[str, Any]]:
+    """Means of solved contacts, and what is predicted with its error."""
+    waves = Waves.of_spectrum(grid, spectrum, solid)
+    surfaces = [gaussian(grid, spectrum, seed=seed) for seed in WITHHELD_SEEDS]
+    for y in WITHHELD_PRESSURES:
+        p = y * waves.full_contact
+        rows = [solved(one, solid, p, waves.rms, waves.full_contact) for one in surfaces]
+        found = asp.studies.predict(spectrum, solid, asp.MeanPressure(p), grid=grid)
+        row: dict[str, Any] = {"case": label, "points": grid.shape[0], "size": found.groups.size, "y": y}
+        row |= {"nayak": waves.nayak, **averaged(rows)}
+        for key, value, unit in (
+            ("area", found.area_fraction, 1.0),
+            ("area_pixels", found.area_fraction_pixels, 1.0),
+            ("peak", found.peak_pressure, waves.full_contact),
+            ("gap", found.mean_gap, waves.rms),
+        ):
+            row |= {f"{key}_predicted": value.value / unit, f"{key}_error": value.error / unit}
+            row[f"{key}_scatter"] = value.scatter / unit
+        for height in (0.5, 1.0, 2.0):
+            reading = predictor().share_below(found.groups, height) if y < 0.1 else None
+            row[f"below_{height:g}_predicted"] = reading.value if reading else np.nan
+        yield row
+
+
+def stressed(seeds: int) -> Iterator[dict[str, float]]:
+    """Largest √J₂ beneath, over the largest pressure, on the half-space."""
+    for n, size in ((64, 10.0), (128, 10.0), (128, 20.0)):
+        waves = Waves.of_spectrum(grid_of(n, size), ExponentialAutocorrelation(RMS, BETA), body())
+        pixel = size / n * BETA
+        depths = pixel * np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 5.0])
+        for y in (0.002, 0.02, 0.2):
+            rows = []
+            for number in range(max(4, seeds // 2)):
+                problem = asp.ContactProblem(exponential(n, size, FIRST_SEED + number), body())
+                result = asp.solve(problem, asp.MeanPressure(y * waves.full_contact), keep=KEEP)
+                field = asp.stress(result, depths=depths)
+                largest = float(np.max(field.von_mises)) / np.sqrt(3.0)
+                rows.append({"sqrtJ2_over_peak": largest / float(result.pressure.max())})
+            yield {"points": n, "size": size, "pixel": size / n, "y": y} | averaged(rows)
+
+
+def write(name: str, rows: Iterable[dict[str, Any]], about: str) -> None:
+    """Write ``rows`` as they come, with what they are in the first lines."""
+    start = perf_counter()
+    commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, text=True, check=True).stdout.strip()
+    found = list(rows)
+    folder = DATA if name in ("master", "layer") else Path(__file__).parent / "predictor"
+    folder.mkdir(exist_ok=True)
+    with (folder / f"{name}.csv").open("w", encoding="utf-8", newline="\n") as file:
+        file.write(f"# {about}\n# made by validation/predictor_table.py at commit {commit}; seeds from {FIRST_SEED}\n")
+        writer = csv.DictWriter(file, list(found[0]), lineterminator="\n")
+        writer.writeheader()
+        for row in found:
+            writer.writerow({key: f"{value:.6g}" if isinstance(value, float) else value for key, value in row.items()})
+    print(f"{name}: {len(found)} rows in {perf_counter() - start:.0f} s", flush=True)
+
+
+def main() -> None:
+    """Write the tables that are asked for."""
+    asked = argparse.ArgumentParser(description=__doc__)
+    asked.add_argument("--seeds", type=int, default=16)
+    asked.add_argument("--only", default="master,layer,stress,withheld")
+    given = asked.parse_args()
+    makers = {
+        "master": (
+            lambda: master(given.seeds),
+            "contacts of exponential surfaces on a half-space; lengths over the 10 % length",
+        ),
+        "layer": (
+            layer,
+            f"factors of one layer at y = {MIDDLE}, slope of their logarithm per decade of y and what it leaves, over "
+            f"y = {LAYER_PRESSURES}, {LAYER_SEEDS} surfaces",
+        ),
+        "withheld": (withheld, "contacts that the tables have not seen, solved and predicted"),
+        "stress": (lambda: stressed(given.seeds), "largest sqrt(J2) over the largest pressure on a half-space, nu 0.3"),
+    }
+    for name in given.only.split(","):
+        make, about = makers[name]
+        write(name, make(), about)
+
+
+if __name__ == "__main__":
+    main()
