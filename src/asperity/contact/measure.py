@@ -179,9 +179,7 @@ class Response(NamedTuple):
         free = survey.free_set(np.zeros((*survey.squares.shape[:2], 2)), 1.0, 1.0, scaled.dtype)
         return cls(free, scaled)
 
-    def solved(
-        self, rise: RealArray | None = None, *, zero_sum: bool = False, stopping: Stopping = _STOPPING
-    ) -> Self:
+    def solved(self, rise: RealArray | None = None, *, zero_sum: bool = False, stopping: Stopping = _STOPPING) -> Self:
         """With the pressure under which the points rise by ``rise`` (nx, ny) in m, by 1 m without
         one; no values if the linear solve does not converge.
 

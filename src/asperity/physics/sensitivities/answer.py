@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ...contact.problem import ContactProblem
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.late import Shown
-from ...contact.problem import ContactProblem
 from .outputs import Output
 from .parameters import HEIGHTS
 from .system import Held
@@ -29,7 +29,7 @@ class SensitivityCertificate:
     Attributes
     ----------
     adjoint_residual
-        Largest residual of the linear system of the output over its right-hand side; 1e-9 is asked
+        Largest residual of the linear system of the output over its right-hand side; 1e-8 is asked
         for.
     state_error
         Largest residual of the result on its set over the rms height, before its pressure was

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -17,7 +16,7 @@ from ...core.errors import InputError
 
 
 class State(NamedTuple):
-    """A contact on its set: ``pressure`` (Pa), the ``deflection`` (m) by it and the ``profile`` (m),
+    """A contact on its set: ``pressure`` (Pa), ``deflection`` by it (m) and ``profile`` (m),
     arrays (nx, ny); the position ``offset`` (m); where the bodies touch without yielding
     (``free``) and where they yield (``capped``)."""
 
@@ -119,9 +118,7 @@ class Scalar:
             return Slopes(0.5 * float((p * work).sum()), work, deflected=0.5 * pixel * p)
         value = float((p * (0.5 * work - state.profile * pixel)).sum())
         slope = pixel * (state.deflection - state.profile)
-        return Slopes(
-            value, slope, heights=-pixel * p, deflected=0.5 * pixel * p, given_load=-state.offset * pixel
-        )
+        return Slopes(value, slope, heights=-pixel * p, deflected=0.5 * pixel * p, given_load=-state.offset * pixel)
 
 
 OUTPUTS: Mapping[str, Output] = MappingProxyType(
@@ -229,8 +226,3 @@ def output(of: str | Output) -> Output:
             f"but is {of!r}.{hint}"
         )
     return OUTPUTS[of]
-
-
-def finite_or_zero(numerator: float, denominator: float) -> float:
-    """Quotient, NaN where the denominator is zero."""
-    return numerator / denominator if denominator else math.nan

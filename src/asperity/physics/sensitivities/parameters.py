@@ -83,7 +83,8 @@ def changed(problem: ContactProblem, name: str, value: float | RealArray) -> Con
         return replace(problem, law=Hardness(value))
     parameter = {each.name: each for each in parameters(problem)}[name]
     body = getattr(problem, parameter.body)
-    return replace(problem, **{parameter.body: _changed_body(body, parameter.constant, float(value))})
+    other = _changed_body(body, parameter.constant, float(value))
+    return replace(problem, body=other) if parameter.body == "body" else replace(problem, counter_body=other)
 
 
 def _changed_body(body: Body, constant: Constant, value: float) -> Body:

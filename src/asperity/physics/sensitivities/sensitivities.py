@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from ...contact.boundary import FreeLine
 from ...contact.controls import Approach, Control, Force, MeanPressure, mean_pressure
 from ...contact.law import Hardness, HardWall
 from ...contact.operators import Operator, prepare_operator
@@ -42,7 +41,7 @@ def sensitivities(
     The solution of a contact is piecewise smooth: while no point changes its state it follows
     parameters linearly on its set, and one linear solve with the adjoint right-hand side gives the
     derivatives of the number with respect to all parameters at once, every height included (Giles
-    & Pierce 2000). Before, the pressure is corrected on the set where its residual is above 1e-9.
+    & Pierce 2000). Before, the pressure is corrected on the set where its residual is above 1e-8.
 
     Parameters
     ----------
@@ -102,9 +101,7 @@ def sensitivities(
             approach = float(found.state.profile.max()) - found.state.offset
             given[name], units[name] = (force, "N") if held == "load" else (approach, "m")
     again = _Again(problem, found, wanted, held, engine)
-    return Sensitivities(
-        problem, wanted, found.slopes.value, held, values, given, units, found.certificate, again
-    )
+    return Sensitivities(problem, wanted, found.slopes.value, held, values, given, units, found.certificate, again)
 
 
 def require_differentiable(result: ContactResult) -> None:
@@ -116,7 +113,8 @@ def require_differentiable(result: ContactResult) -> None:
         )
     problem, must = result.problem, "contact of sensitivities must be one under pressure alone, but has"
     if problem.physics:
-        raise InputError(f"{must} {', '.join(each.keyword.replace('_', ' ') or 'another physics' for each in problem.physics)}. Leave it out.")
+        names = ", ".join(each.keyword.replace("_", " ") or "another physics" for each in problem.physics)
+        raise InputError(f"{must} {names}. Leave it out.")
     if any(found is not None for found in result.couplings.values()):
         raise InputError(f"{must} {', '.join(result.couplings)}. Leave it out.")
     if relaxes(problem.body) or relaxes(problem.counter_body):
@@ -147,7 +145,7 @@ def _held(result: ContactResult, held: Held | None) -> Held:
     if isinstance(result.control, Approach):
         return "approach"
     raise InputError(
-        f"held of sensitivities must be given, load or approach, where {result.control.name} is prescribed, but is None."
+        f"held of sensitivities must be load or approach where the control is a {result.control.name}, but is None."
     )
 
 
@@ -252,8 +250,8 @@ class _Again:
     engine: Engine | None
 
     def __call__(self, name: str, step: float) -> tuple[float, int]:
-        """Output with the parameter of that ``name`` changed by the relative ``step``, and the number
-        of points that change their state."""
+        """Output with the parameter of that ``name`` changed by the relative ``step``, and the
+        number of points that change their state."""
         state, problem = self.found.state, self.problem
         grid, factor = problem.grid, 1.0 + step
         if self.held == "load":
