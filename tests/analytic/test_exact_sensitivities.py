@@ -75,7 +75,7 @@ def test_coated_spheres(row: Row) -> None:
     }
     found = []
     for reach in (1.20, 1.215, 1.23, 1.245, 1.26, 1.275):
-        n = 64
+        n = 96
         x = (np.arange(n) - 0.5 * n + 0.5) * (2.0 * reach * a / n)
         sphere = -0.5 * np.add.outer(x**2, x**2) / R
         problem = asp.ContactProblem(asp.Surface(sphere, x[1] - x[0]), body, boundary=asp.Free())
