@@ -1,4 +1,4 @@
-"""Sensitivities: derivatives of the answers of a contact to heights, load, moduli and thicknesses.
+"""Sensitivities: derivatives of answers to heights, load, moduli and thicknesses.
 
 ``sensitivities`` gives the ``Sensitivities`` of one number of a solved contact with respect to all
 its parameters, from one linear solve; ``PressureNorm`` and ``SmoothArea`` take the place of peak
