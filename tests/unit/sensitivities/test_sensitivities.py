@@ -316,3 +316,30 @@ def test_full_periodic_contact() -> None:
     assert sensitivities(result, "approach", "force")["force"] == pytest.approx(0.0, abs=1e-20)
     with refused(InputError, "contact of sensitivities at a held approach"):
         sensitivities(result, "force", held="approach")
+
+
+@pytest.mark.parametrize("boundary", [Periodic(), Free(), FreeLine()], ids=["periodic", "free", "line"])
+def test_films_on_a_rigid_base_and_layers_on_both_bodies(boundary: object) -> None:
+    film = asp.Layered([asp.Layer(asp.Elastic(3e9, 0.4), 200 * NM)], asp.RigidBase())
+    slipping = asp.Layered([asp.Layer(asp.Elastic(30e9, 0.3), 80 * NM, asp.Frictionless())], asp.Elastic(90e9, 0.2))
+    plain = problem_of(boundary, body=film)
+    for counter in (asp.Rigid(), slipping):
+        problem = replace(plain, counter_body=counter)
+        result = asp.solve(problem, asp.MeanPressure(60 * MPA), solver=ActiveSet(tolerance=1e-10))
+        found, step = sensitivities(result, "approach"), 1e-4
+        assert abs(found.euler_defect) <= 1e-8
+        for each in parameters(problem):
+            up, down = (
+                frozen_value(result, changed(problem, each.name, each.value * scale), OUTPUTS["approach"], "load")
+                for scale in (1.0 + step, 1.0 - step)
+            )
+            difference = (up - down) / (2.0 * step * found.value)
+            assert found.relative[each.name] == pytest.approx(difference, rel=1e-6, abs=1e-7), each.name
+
+
+def test_a_step_of_a_history_is_a_contact_like_any_other() -> None:
+    loads = [asp.MeanPressure(value * MPA) for value in (100, 250, 400)]
+    path = asp.solve(problem_of(Periodic()), asp.History(loads), solver=ActiveSet(tolerance=1e-10))
+    step, alone = sensitivities(path.last, PressureNorm(8.0)), sensitivities(solved(Periodic()), PressureNorm(8.0))
+    for name, value in alone.relative.items():
+        assert step.relative[name] == pytest.approx(value, rel=1e-6, abs=1e-8)
