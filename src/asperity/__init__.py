@@ -21,6 +21,7 @@ Everything of a subject stands in its module. Numbers are in SI units, arrays ar
     rolling         creepage, creep forces and their curve, of smooth and of rough bodies
     roughness       every quantity of a surface, one function or record each
     sealing         flow through the gap, leak rates, throats, flow factors
+    sensitivities   derivatives of answers to heights, load, moduli and thicknesses
     solids          elastic, layered and graded bodies, the library of materials
     solvers         methods of the normal contact, prepared operators, rounds of couplings
     stresses        fields below the surface, loads, criteria, first yield, shakedown

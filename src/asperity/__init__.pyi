@@ -16,6 +16,7 @@ from . import report as report
 from . import rolling as rolling
 from . import roughness as roughness
 from . import sealing as sealing
+from . import sensitivities as sensitivities
 from . import solids as solids
 from . import solvers as solvers
 from . import stresses as stresses
@@ -104,6 +105,7 @@ __all__ = [
     "rolling",
     "roughness",
     "sealing",
+    "sensitivities",
     "solids",
     "solvers",
     "stresses",

@@ -342,6 +342,14 @@ def test_the_example_of_flash_temperatures(capsys):
     assert capsys.readouterr().out.count("into the body") == 2
 
 
+def test_the_example_of_sensitivities(capsys):
+    page, names = ROOT / "docs/how-to/sensitivities.md", {}
+    (code,) = blocks(page, "python")
+    exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    assert abs(names["peak"].euler_defect) < 1e-6
+    assert "body.layers[0].thickness" in capsys.readouterr().out
+
+
 def test_the_examples_of_wear(capsys):
     page, names = ROOT / "docs/how-to/wear.md", {}
     code, of_stresses = blocks(page, "python")

@@ -160,29 +160,36 @@ def normal_stiffness(operator: Operator, moving: BoolArray) -> float:
 
 class Response(NamedTuple):
     """Pressure that moves some points as prescribed: the set ``free`` of them, the ``scaled``
-    operator, and the ``values`` on the set, None where it is not solved."""
+    operator, the ``values`` on the set, None where it is not solved, and the FFT ``pairs`` it
+    took."""
 
     free: FreeSet
     scaled: ScaledOperator
     values: Any = None
+    pairs: float = 0.0
 
     @classmethod
-    def of(cls, operator: Operator, moving: BoolArray) -> Self:
-        """Not solved yet, on the points ``moving`` (nx, ny), at least one."""
+    def of(cls, operator: Operator, moving: BoolArray, dtype: str = "float32") -> Self:
+        """Not solved yet, on the points ``moving`` (nx, ny), at least one, in the precision
+        ``dtype``."""
         engine, shape = operator.engine, operator.grid.shape
-        scaled = ScaledOperator.of(operator, "float32", operator.largest or 1.0)
+        scaled = ScaledOperator.of(operator, dtype, operator.largest or 1.0)
         p, flat = engine.array(moving.astype(float), "float64"), engine.zeros(shape, "float64")
         survey = engine.survey(p, flat, flat, None)  # u = h: no point enters, and the residual is the level
         free = survey.free_set(np.zeros((*survey.squares.shape[:2], 2)), 1.0, 1.0, scaled.dtype)
         return cls(free, scaled)
 
-    def solved(self, rise: RealArray | None = None) -> Self:
+    def solved(self, rise: RealArray | None = None, *, zero_sum: bool = False, stopping: Stopping = _STOPPING) -> Self:
         """With the pressure under which the points rise by ``rise`` (nx, ny) in m, by 1 m without
-        one; no values if the linear solve does not converge."""
+        one; no values if the linear solve does not converge.
+
+        With ``zero_sum`` the pressure sums to zero, and the points rise by that up to a constant;
+        ``rise`` must have the mean zero on them.
+        """
         r = self.free.residual(centred=False) if rise is None else self._vector(rise)
-        found = conjugate_gradients(LinearSystem(self.scaled, self.free, zero_sum=False), r, _STOPPING)
+        found = conjugate_gradients(LinearSystem(self.scaled, self.free, zero_sum=zero_sum), r, stopping)
         self.scaled.engine.clear_field(self.free, self.scaled.field)
-        return self._replace(values=found.d if found.reached else None)
+        return self._replace(values=found.d if found.reached else None, pairs=found.pairs)
 
     def preconditioned(self, rise: RealArray) -> RealArray:
         """Approximate pressure (nx, ny) for a ``rise`` (nx, ny) of the points, in the units and the

@@ -1,0 +1,1 @@
+"""Derivatives of the answers of a solved contact, by one linear solve each."""

@@ -1,0 +1,169 @@
+"""Parameters of a contact by name, and what a change of each does to its compliance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ...contact.boundary import Periodic
+from ...contact.law import Hardness
+from ...contact.operators import Operator
+from ...contact.operators.convolution import spectral_kernel
+from ...contact.problem import ContactProblem
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ...core.spectral import RealTransform, multiplicity, thread_count, wrapped
+from ...solids.compliance.halfspace import Compliance
+from ...solids.compliance.rates import UNITS, Constant, compliance_rates
+from ...solids.elastic import Elastic, Rigid
+from ...solids.layers import Body, Layer, Layered
+
+HEIGHTS, HARDNESS, LOAD, APPROACH = "heights", "hardness", "force", "approach"
+"""Parameters that are not constants of the bodies; of the last two, that which is held."""
+
+
+class Parameter(NamedTuple):
+    """A constant of one of the bodies: its ``name``, whose ``body`` it is, which ``constant``, and
+    the derivative of the compliance to it, ``factor`` times ``rate``."""
+
+    name: str
+    body: str
+    constant: Constant
+    rate: Compliance
+    factor: float
+
+    @property
+    def value(self) -> float:
+        """Value in SI units."""
+        return self.constant.value
+
+    @property
+    def unit(self) -> str:
+        """SI unit."""
+        return UNITS[self.constant.kind]
+
+
+def parameters(problem: ContactProblem) -> tuple[Parameter, ...]:
+    """All constants of both bodies that take part, such as ``body.layers[0].thickness``,
+    ``body.base.youngs_modulus`` or, of a homogeneous one, ``counter_body.poisson_ratio``."""
+    found = []
+    for which, body in (("body", problem.body), ("counter_body", problem.counter_body)):
+        if isinstance(body, Rigid):
+            continue
+        for rate in compliance_rates(body):
+            name = f"{which}.{_place(body, rate.constant)}{rate.constant.kind}"
+            found.append(Parameter(name, which, rate.constant, rate.compliance, rate.factor))
+    return tuple(found)
+
+
+def _kept(body: Layered) -> list[int]:
+    """Numbers in ``body`` of the layers of the reduced body, that of the base last."""
+    there = [k for k, layer in enumerate(body.layers) if layer.thickness > 0.0]
+    return [*there, len(body.layers)]
+
+
+def _place(body: Elastic | Layered, constant: Constant) -> str:
+    if isinstance(body, Elastic):
+        return ""
+    number = _kept(body)[constant.layer]
+    return f"layers[{number}]." if number < len(body.layers) else "base."
+
+
+def changed(problem: ContactProblem, name: str, value: float | RealArray) -> ContactProblem:
+    """``problem`` with another ``value`` of the parameter of that ``name``; of the heights what is
+    added to them."""
+    if name == HEIGHTS:
+        surface = problem.surface
+        return replace(problem, surface=surface.with_heights(surface.heights + value, "heights changed"))
+    if name == HARDNESS:
+        return replace(problem, law=Hardness(value))
+    parameter = {each.name: each for each in parameters(problem)}[name]
+    body = getattr(problem, parameter.body)
+    other = _changed_body(body, parameter.constant, float(value))
+    return replace(problem, body=other) if parameter.body == "body" else replace(problem, counter_body=other)
+
+
+def _changed_body(body: Body, constant: Constant, value: float) -> Body:
+    if isinstance(body, Elastic):
+        return _changed_material(body, constant.kind, value)
+    assert isinstance(body, Layered)
+    number, layers, base = _kept(body)[constant.layer], list(body.layers), body.base
+    if number == len(layers):
+        assert isinstance(base, Elastic)
+        base = _changed_material(base, constant.kind, value)
+    elif constant.kind == "thickness":
+        layers[number] = replace(layers[number], thickness=value)
+    else:
+        layer = layers[number]
+        material = _changed_material(layer.material, constant.kind, value)
+        layers[number] = Layer(material, layer.thickness, layer.interface)
+    return Layered(layers, base, body.name)
+
+
+def _changed_material(material: Elastic, kind: str, value: float) -> Elastic:
+    given = {"youngs_modulus": material.youngs_modulus, "poisson_ratio": material.poisson_ratio, kind: value}
+    return Elastic(given["youngs_modulus"], given["poisson_ratio"])
+
+
+def chosen(to: str | Iterable[str], known: Iterable[str]) -> tuple[str, ...]:
+    """Names of ``to`` among those ``known``; ``"all"`` takes all of them, ``"body.layers"`` all
+    that begin so.
+
+    Raises
+    ------
+    InputError
+        If a name is none of them.
+    """
+    names = tuple(known)
+    if to == "all":
+        return names
+    asked = (to,) if isinstance(to, str) else tuple(to)
+    found: list[str] = []
+    for name in asked:
+        fit = [each for each in names if each == name] or [
+            each for each in names if isinstance(name, str) and each.startswith((f"{name}.", f"{name}["))
+        ]
+        if not fit:
+            raise InputError(f"parameter of a sensitivity must be one of {', '.join(names)}, but is {name!r}.")
+        found += [each for each in fit if each not in found]
+    return tuple(found)
+
+
+def responses(
+    operator: Operator, rates: Iterable[Parameter], weight: RealArray, pressure: RealArray
+) -> Mapping[str, float]:
+    """weight · (dK/dθ) pressure by the name of each of the parameters θ ``rates``, from one
+    transform of each of the two arrays (nx, ny): in Fourier space dK/dθ is diagonal."""
+    grid = Grid(operator.padded, operator.grid.spacing)
+    transform, (nx, ny) = RealTransform(grid.shape, thread_count()), operator.grid.shape
+    spectra = []
+    for field in (weight, pressure):
+        whole = np.zeros(grid.shape)
+        whole[:nx, :ny] = field
+        spectra.append(transform.forward(whole))
+    density = (spectra[0].conj() * spectra[1]).real * (multiplicity(grid) / grid.n_points)
+    found: dict[str, float] = {}
+    known: dict[int, float] = {}
+    for parameter in rates:
+        rate = parameter.rate
+        if id(rate) not in known:
+            kernel = _kernel(operator, rate, transform)
+            # the datum is that of the compliance: the mean, where a half-space is part of it
+            known[id(rate)] = float((kernel * density).sum())
+            if operator.zero_mean_mode:
+                known[id(rate)] -= float(kernel[0, 0] * density[0, 0])
+        found[parameter.name] = parameter.factor * known[id(rate)]
+    return found
+
+
+def _kernel(operator: Operator, rate: Compliance, transform: RealTransform) -> RealArray:
+    """``rate`` on the half spectrum of the operator."""
+    grid, boundary = operator.grid, operator.boundary
+    if isinstance(boundary, Periodic):
+        return np.asarray(spectral_kernel(rate, grid))
+    influence = boundary.influence(rate, grid)
+    return np.asarray(transform.forward(wrapped(influence, operator.padded)).real)
