@@ -105,3 +105,15 @@ def test_a_file_holds_the_layer(tmp_path: Path) -> None:
     assert np.array_equal(found.third_body.compression, result.third_body.compression)
     assert np.array_equal(found.problem.physics[0].thickness, problem.physics[0].thickness)
     assert found.to_xarray()["contact"]["ThirdBody_thickness"].attrs["units"] == "m"
+
+
+def test_the_work_of_a_load_path_is_stored_in_bodies_and_layer() -> None:
+    """What the load does over the approach is the elastic energy of both, to the second order of
+    the trapezoidal rule."""
+    problem = replace(rough(), physics=(ThirdBody(np.full((POINTS, POINTS), 5e-8), 50e9),))
+    errors = []
+    for steps in (8, 16):
+        path = asp.solve(problem, asp.History.ramps(asp.MeanPressure, [300e6], steps=steps))
+        errors.append(path.energies.relative_error)
+    assert errors[1] < 0.02
+    assert errors[1] < 0.4 * errors[0]

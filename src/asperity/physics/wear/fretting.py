@@ -13,7 +13,7 @@ from ...contact.controls import Control, Step
 from ...contact.history import shear_cycles
 from ...contact.problem import ContactProblem
 from ...contact.result import ContactResult
-from ...contact.solve import Keep, Prepared
+from ...contact.solve import Prepared
 from ...contact.state import InterfaceState
 from ...contact.tangential import Shift
 from ...core import require
@@ -23,7 +23,7 @@ from ...core.status import Status
 from .history import QUANTITIES, WearHistory, WearState
 from .law import Sides, WearLaw
 from .march import REPEATED, At, March, WearSteps, check, too_many
-from .stage import Stretch, implicit_stage
+from .stage import Stretch
 
 _FIRST_JUMP = 1.0
 """Cycles of the first jump."""
@@ -139,8 +139,7 @@ class Fretting(March):
     def sheared(self, at: Prepared, interface: InterfaceState) -> Cycle:
         """One cycle on the prepared surfaces, from ``interface`` on; a virgin one is loaded
         first."""
-        options = {name: value for name, value in self.options.items() if name != "operator"}
-        prepared = Prepared(at.problem, keep=Keep(stiffness=False), operator=at.operator, sticks=True, **options)
+        prepared = self.made(at.problem, at.operator, sticks=True)
         first = len(self.path) // 5  # a quarter to the first turning point, and the cycle of four
         begun, status, result = "stick_slip" in interface.memory, None, None
         dose = np.zeros(self.problem.grid.shape)
@@ -200,8 +199,7 @@ class Fretting(March):
             count = min(max(1.0, float(round(length))), mark - state.cycles)
             before = losses.each(lambda loss, start: start + count * outside, state.doses)  # noqa: B023
             stretch = Stretch(state.doses, before, count * slip)
-            stage = implicit_stage(plain, self.step, begin.state, losses, stretch)
-            self.count(stage.pairs, stage.contacts)
+            stage = self.stage(plain, begin.state, stretch, None)
             doses = losses.after(before, stage.pressure, count * slip)
             found = replace(state, doses=doses)
             prepared = self.prepared(found, at.prepared)
@@ -232,9 +230,7 @@ class Fretting(March):
 
     def frictionless(self, prepared: Prepared) -> Prepared:
         """The ``prepared`` surfaces without friction."""
-        problem = prepared.problem.with_physics(friction=None)
-        options = {name: value for name, value in self.options.items() if name != "operator"}
-        return Prepared(problem, keep=Keep(stiffness=False), operator=prepared.operator, **options)
+        return self.made(prepared.problem.with_physics(friction=None), prepared.operator)
 
 
 def _hardness(result: ContactResult) -> dict[str, Any]:

@@ -136,8 +136,8 @@ class WearHistory:
     contacts: int = measured("1", "normal contacts solved")
     fft_pairs: float = measured("1", "FFT pairs of all contacts")
     status: Status = measured("", "how it ended")
-    kept: tuple[tuple[float, ContactResult], ...] = field(default=(), metadata=given().metadata)
-    state: WearState | None = field(default=None, repr=False, metadata=given().metadata)
+    kept: tuple[tuple[float, ContactResult], ...] = given(default=())
+    state: WearState | None = given(default=None, repr=False)
 
     def __getitem__(self, name: str) -> RealArray:
         """Values of the quantity ``name`` along the course.

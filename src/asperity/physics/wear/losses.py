@@ -50,6 +50,10 @@ class Loss:
         """Dose (Pa m) of a body that has not worn: (nx, ny), of a track (ny,)."""
         return np.zeros(grid.shape if self.share is None else grid.shape[1])
 
+    def summed(self, values: RealArray, grid: Grid) -> float:
+        """Integral of ``values`` over the area, of a track over its whole length."""
+        return float(values.mean()) * grid.area / (1.0 if self.share is None else self.share)
+
     def exposure(self, pressure: RealArray, slid: float | RealArray) -> RealArray:
         """Dose (Pa m) by ``pressure`` (nx, ny) in Pa while the bodies slide by ``slid`` (m)."""
         if self.share is not None:
@@ -95,6 +99,13 @@ class Losses:
             made.append(None if law is None else Loss(law, share))
         return cls(made[0], made[1], grid, 0.0 if sides.debris is None else sides.debris.share)
 
+    def wearing(self, *doses: Doses) -> Iterator[tuple[Loss, tuple[RealArray, ...]]]:
+        """The losses of the bodies that wear, each with its part of all ``doses``."""
+        for loss, *parts in zip((self.body, self.counter), *doses, strict=True):
+            known = tuple(part for part in parts if part is not None)
+            if loss is not None and len(known) == len(doses):
+                yield loss, known
+
     def each(self, made: Callable[[Loss, RealArray], RealArray], doses: Doses) -> Doses:
         """``made`` of every loss and its dose."""
         pairs = ((self.body, doses.body), (self.counter, doses.counter))
@@ -127,8 +138,8 @@ class Losses:
     def bare(self, doses: Doses) -> BoolArray:
         """(nx, ny), True where all layers of a body are worn through."""
         found = np.zeros(self.grid.shape, dtype=bool)
-        for loss, dose in zip((self.body, self.counter), doses, strict=True):
-            if loss is not None and dose is not None and len(loss.law.stages) > 1:
+        for loss, (dose,) in self.wearing(doses):
+            if len(loss.law.stages) > 1:
                 found |= loss.law.stage(dose) == len(loss.law.stages) - 1
         return found
 
@@ -136,8 +147,8 @@ class Losses:
         """Place at which the first point loses its last layer between two doses, ``along`` a
         stretch from (begin, length); infinite where none does."""
         earliest, (begin, length) = math.inf, along
-        for loss, start, end in zip((self.body, self.counter), before, after, strict=True):
-            if loss is None or start is None or end is None or len(loss.law.stages) == 1:
+        for loss, (start, end) in self.wearing(before, after):
+            if len(loss.law.stages) == 1:
                 continue
             last = len(loss.law.stages) - 1
             crossing = (loss.law.stage(end) == last) & (loss.law.stage(start) < last)
@@ -154,7 +165,7 @@ class Losses:
             if loss is None or depth is None:
                 found.append(0.0)
             else:
-                found.append(float(depth.mean()) * self.grid.area / (1.0 if loss.share is None else loss.share))
+                found.append(loss.summed(depth, self.grid))
         return found[0], found[1]
 
     def apart(self, doses: Doses, others: Doses) -> float:
@@ -172,13 +183,11 @@ class Losses:
         """Sum of the ``doses`` less ``carried`` (N m), force times distance, relative, the larger
         of both bodies; NaN where a part of the pressure does not wear."""
         worst = 0.0
-        for loss, dose in zip((self.body, self.counter), doses, strict=True):
-            if loss is None or dose is None or carried == 0.0:
-                continue
+        for loss, (dose,) in self.wearing(doses):
             if loss.law.threshold_pressure:
                 return math.nan
-            found = float(dose.mean()) * self.grid.area / (1.0 if loss.share is None else loss.share)
-            worst = max(worst, abs(found / carried - 1.0))
+            if carried:
+                worst = max(worst, abs(loss.summed(dose, self.grid) / carried - 1.0))
         return worst
 
     def linearised(self, before: Doses, doses: Doses, pressure: RealArray, slid: float | RealArray) -> Linearised:
@@ -187,9 +196,7 @@ class Losses:
         bed: float | RealArray = 0.0
         track: RealArray | None = None
         start = np.zeros(self.grid.shape)
-        for loss, first, begin in zip((self.body, self.counter), before, doses, strict=True):
-            if loss is None or first is None or begin is None:
-                continue
+        for loss, (first, begin) in self.wearing(before, doses):
             end = begin + loss.exposure(pressure, slid)
             slope = loss.slope(end, pressure, slid)
             if loss.law.linear:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...contact.controls import Control, Step
 from ...contact.couplings.protocol import Deflections
+from ...contact.operators import Operator
 from ...contact.problem import ContactProblem
 from ...contact.result import ContactResult
 from ...contact.solve import Keep, Prepared
@@ -252,8 +253,12 @@ class March:
         layer = None if left is None or debris is None or not left.any() else ThirdBody(left, debris.modulus)
         problem = worn_problem(self.problem, self.losses.depths(state.doses), state.taken, bare, layer)
         same = like is not None and like.operator.compliance == problem.compliance
-        options = {**self.options, "operator": like.operator} if like is not None and same else self.options
-        return Prepared(problem, keep=Keep(stiffness=False), **options)
+        return self.made(problem, like.operator if like is not None and same else None)
+
+    def made(self, problem: ContactProblem, operator: Operator | None, *, sticks: bool = False) -> Prepared:
+        """A contact of ``problem`` with its ``operator``, where that is known."""
+        options = self.options if operator is None else {**self.options, "operator": operator}
+        return Prepared(problem, keep=Keep(stiffness=False), sticks=sticks, **options)
 
     def solved(self, prepared: Prepared, interface: InterfaceState) -> ContactResult:
         """Contact of the ``prepared`` surfaces, started from ``interface``."""

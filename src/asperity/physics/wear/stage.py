@@ -44,11 +44,10 @@ class Hollow(Coupling):
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """What one stretch comes to: its ``pressure`` (nx, ny) in Pa, the displacement by it without
-    wear (m), how it ended, and the work: FFT ``pairs`` and number of ``contacts``."""
+    """What one stretch comes to: its ``pressure`` (nx, ny) in Pa, how it ended, and the work: FFT
+    ``pairs`` and number of ``contacts``."""
 
     pressure: RealArray
-    displacement: RealArray
     status: Status
     pairs: float
     contacts: int
@@ -93,9 +92,8 @@ def implicit_stage(
         own = found.solution.state
         pairs += own.applications * operator.pairs_per_application + own.extra_pairs
         pressure = found.pressure
-        worn = model.depth(pressure) - model.start
         wanted = losses.hollow(losses.after(stretch.doses, pressure, slid)) - losses.hollow(stretch.before)
-        miss = float(np.abs(wanted - worn - model.start).max())
+        miss = float(np.abs(wanted - model.depth(pressure)).max())
         enough = _AGREES * max(float(np.abs(wanted).max()), _AGREES * scale)
         status = settled.status
         if not status.converged or miss <= enough:
@@ -110,7 +108,7 @@ def implicit_stage(
             f"Not converged: the stages of wear still change the depth by {miss:.1e} m after {_MOST} contacts.",
             "Take more steps ({wear.steps}).",
         )
-    return Stage(pressure, own.deflection - worn, status, pairs, count)
+    return Stage(pressure, status, pairs, count)
 
 
 @dataclass(frozen=True, eq=False)

@@ -52,12 +52,10 @@ class WearWork(WithFacts):
     def compute(self, ask: Wears, solved: Solved) -> Found:
         """Wear under the load that is asked for, from the surfaces as they are given."""
         reached, table = solved.at(ask.settings.step), ask.settings
+        sides = sides_of(ask, solved.problem)
         with solved.stage("wear") as progress:
-            history = _worn(ask, solved, reached.result.control, progress)
-        sides, allowed = (
-            sides_of(ask, solved.problem),
-            None if table.allowed_depth is None else float(table.allowed_depth),
-        )
+            history = _worn(ask, solved, sides, reached.result.control, progress)
+        allowed = None if table.allowed_depth is None else float(table.allowed_depth)
         across = _across(sides, solved.problem.grid.shape)
         values: dict[str, Any] = {**_numbers(history, allowed), **_fields(history, sides)}
         values |= _section(history, across=across)
@@ -184,9 +182,9 @@ def _law(ask: Wears, body: Body, given: float | None) -> WearLaw:
     return WearLaw(stages, threshold_pressure=float(table.threshold_pressure), threshold_dose=dose)
 
 
-def _worn(ask: Wears, solved: Solved, control: Control, progress: Any) -> WearHistory:
-    """The wear that is asked for under ``control``."""
-    table, problem, sides = ask.settings, solved.problem, sides_of(ask, solved.problem)
+def _worn(ask: Wears, solved: Solved, sides: Sides, control: Control, progress: Any) -> WearHistory:
+    """The wear of both ``sides`` that is asked for under ``control``."""
+    table, problem = ask.settings, solved.problem
     options: dict[str, Any] = {"progress": progress, "on_failure": "return"}
     if solved.solver is not None:
         options["solver"] = solved.solver
