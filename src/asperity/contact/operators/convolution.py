@@ -96,6 +96,11 @@ class Operator(Protocol):
         are preconditioned has the right size everywhere."""
 
     @property
+    def beside(self) -> RealArray | None:
+        """What points yield (m/Pa, (nx, ny), >= 0) to their own load beside what ``octaves`` tell;
+        None where it is nothing."""
+
+    @property
     def pairs_per_application(self) -> float:
         """Cost of one application in real FFT pairs of the grid."""
 
@@ -172,6 +177,7 @@ class PreparedOperator:
     octaves: Octaves
     zero_mean_mode: bool
     translation_invariant: bool = True
+    beside: RealArray | None = None
 
     @cached_property
     def _resident(self) -> Any:

@@ -14,6 +14,7 @@ from .protocol import (
     Splines,
     Survey,
     Totals,
+    UnevenSplines,
     Violation,
 )
 
@@ -30,5 +31,6 @@ __all__ = [
     "Splines",
     "Survey",
     "Totals",
+    "UnevenSplines",
     "Violation",
 ]

@@ -8,7 +8,7 @@ library elsewhere. In all passes p is the pressure (Pa), u the deflection K p (m
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 from ..arrays import RealArray
 
@@ -272,6 +272,18 @@ class Splines(Protocol):
     def predicted_residual(self, free: FreeSet, r: Any, loaded: FreeSet, change: Any) -> Any:
         """Vector r less the deflection of the points of ``free`` by ``change``, a vector of the set
         ``loaded``."""
+
+
+@runtime_checkable
+class UnevenSplines(Protocol):
+    """Such splines whose points may yield unlike to their own load, by factors of ``conductance``
+    (n,), positive or negative."""
+
+    def factorise(self, free: FreeSet, conductance: Any | None = None) -> None:
+        """Prepare the inverse for the points of ``free``."""
+
+    def solve_with(self, free: FreeSet, r: Any, conductance: Any) -> Any:
+        """Inverse times ``r`` after ``factorise`` with the same factors; not quite symmetric."""
 
 
 class Survey(Protocol):

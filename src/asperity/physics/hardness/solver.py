@@ -32,6 +32,7 @@ from ...contact.solvers.active_set.bounds import free_set, plane_level
 from ...contact.solvers.active_set.first_guess import COARSEST, coarse_tolerance, coarsened
 from ...contact.solvers.active_set.linear_system import Workspace
 from ...contact.solvers.active_set.solver import ActiveSet, relative_error
+from ...contact.solvers.active_set.spline_model import OWN_YIELDING
 from ...contact.solvers.protocol import LOAD_ROUNDING, LOAD_SWEEPS, ContactQP, FixedMean, feasible_start
 from ...core.arrays import BoolArray, RealArray
 from ...core.engine import CpuEngine
@@ -43,10 +44,6 @@ points with three films, for 0.1, 0.2: 1 %, 6 % more."""
 
 _MOST_PRODUCTS = 7
 """Products with the model at most in a step; three are the rule."""
-
-_YIELDING = 0.5
-"""Deflection of a yielding point under its own load, over that of any point in the inverse of
-nested splines. FFT pairs as above for 0.3, 0.7, 1: 1 %, 2 %, 230 % more."""
 
 _MOST_STEPS, _MOST_COARSE = 40, 8
 """Steps after which it is given up, and after which a coarser grid gives what it has; four to six
@@ -179,7 +176,7 @@ class _Iteration:
         assert isinstance(engine, CpuEngine)
         self.engine = engine
         self.splines = engine.splines(qp.profile.shape, scaled.modelled.model, scaled.dtype)
-        self.unit = _YIELDING / scaled.modelled.model.stiffness
+        self.unit = OWN_YIELDING / scaled.modelled.model.stiffness
         self.pairs = qp.operator.pairs_per_application
 
     def found(self, pairs: float, progress: Progress | None) -> Followed:

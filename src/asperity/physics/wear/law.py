@@ -97,18 +97,23 @@ class WearLaw:
 
     def stage(self, dose: RealArray) -> NDArray[np.intp]:
         """Number of the stage from 0 that points of this ``dose`` (Pa m) are in."""
-        found: NDArray[np.intp] = np.searchsorted(self._knots[0], self._effective(np.asarray(dose)), side="right") - 1
+        doses, effective = self._knots[0], self._effective(np.asarray(dose))
+        found: NDArray[np.intp] = np.zeros(effective.shape, np.intp)
+        for begin in doses[1:]:  # a few, for which comparisons are faster than a search
+            found += effective >= begin
         return found
 
     def depth(self, dose: RealArray) -> RealArray:
         """Worn depth (m) after a ``dose`` (Pa m) of any shape, or of (nx, ny) where the factor is a
         map."""
-        doses, depths, coefficients = self._knots
+        doses, _, coefficients = self._knots
         effective = self._effective(np.asarray(dose))
         if len(doses) == 1:
             return np.asarray(coefficients[0] * effective)
-        stage = np.searchsorted(doses, effective, side="right") - 1
-        return np.asarray(depths[stage] + coefficients[stage] * (effective - doses[stage]))
+        found = coefficients[0] * np.minimum(effective, doses[1])
+        for begin, span, coefficient in zip(doses[1:], [*np.diff(doses[1:]), math.inf], coefficients[1:], strict=True):
+            found = found + coefficient * np.clip(effective - begin, 0.0, span)
+        return np.asarray(found)
 
     def slope(self, dose: RealArray) -> RealArray:
         """Depth per dose (m²/N) at a ``dose`` (Pa m): the wear coefficient of what is at the

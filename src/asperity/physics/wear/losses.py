@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from .law import Sides, WearLaw
+
+_KEPT = 3
+"""Doses whose depths are kept: those at the begin of a step, at its end, and by an explicit one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +83,7 @@ class Losses:
     counter: Loss | None
     grid: Grid
     left: float = 0.0
+    _known: list[tuple[Doses, Doses]] = field(default_factory=list, init=False, repr=False)
 
     @classmethod
     def of(cls, sides: Sides, grid: Grid) -> Losses:
@@ -120,8 +124,14 @@ class Losses:
         return self.each(lambda loss, dose: dose + loss.exposure(pressure, slid), doses)
 
     def depths(self, doses: Doses) -> Doses:
-        """Worn depth (m) of both bodies after ``doses``, each of (nx, ny)."""
-        return self.each(lambda loss, dose: np.broadcast_to(loss.law.depth(dose), self.grid.shape), doses)
+        """Worn depth (m) of both bodies after ``doses``, each of (nx, ny); the latest are kept, as
+        a step asks for them several times."""
+        for known, depths in self._known:
+            if known is doses:
+                return depths
+        found = self.each(lambda loss, dose: np.broadcast_to(loss.law.depth(dose), self.grid.shape), doses)
+        self._known[:] = [(doses, found), *self._known[: _KEPT - 1]]
+        return found
 
     def depth(self, doses: Doses) -> RealArray:
         """Their sum (nx, ny) in m."""

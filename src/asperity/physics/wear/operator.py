@@ -39,8 +39,7 @@ class _Raised(Octaves):
 
 @dataclass(eq=False)
 class _WithBed:
-    """Product with a compliance that holds the mean of the bed, and what the bed is beside its
-    mean."""
+    """Product with a compliance that holds one value of the bed, and what the bed is beside it."""
 
     whole: Convolution
     uneven: Any
@@ -67,16 +66,17 @@ class WearOperator(PreparedOperator):
         b in m/Pa, >= 0: a number or an array (nx, ny).
     track
         t in m/Pa, >= 0, (ny,): of a body that wears alike all along x; None for none.
-    typical
-        Value of the bed where the surfaces touch, by which the systems are preconditioned; the mean
-        of the bed if not given.
+    least
+        Least value of the bed where the surfaces touch: the systems are preconditioned with a body
+        on such a bed, whose points yield by the rest beside it; the least of all if not given.
     """
 
     def __init__(
-        self, whole: Operator, bed: float | RealArray, track: RealArray | None = None, typical: float | None = None
+        self, whole: Operator, bed: float | RealArray, track: RealArray | None = None, least: float | None = None
     ) -> None:
         self.whole, self.bed, self.track = whole, bed, track
-        self.even = bed if isinstance(bed, float) else float(np.mean(bed)) if typical is None else typical
+        self.even = bed if isinstance(bed, float) else float(np.min(bed)) if least is None else least
+        self.beside = np.maximum(bed - self.even, 0.0) if isinstance(bed, np.ndarray) else None
         self.grid, self.padded, self.boundary = whole.grid, whole.padded, whole.boundary
         self.engine: Engine = whole.engine
         self.compliance: Compliance = whole.compliance
@@ -87,7 +87,7 @@ class WearOperator(PreparedOperator):
 
     @cached_property
     def kernel(self) -> RealArray:  # type: ignore[override]
-        """Compliance (m/Pa) on the half spectrum, with the typical value of the bed."""
+        """Compliance (m/Pa) on the half spectrum, with the least value of the bed."""
         return np.asarray(self.whole.kernel + self.even)
 
     @cached_property

@@ -69,15 +69,17 @@ def implicit_stage(
     length of the stretch over the one before, in which pressures are extrapolated to start from.
     """
     guess, earlier = state.pressure, None
+    if ahead is not None and state.earlier is not None:
+        guess = np.maximum(guess + ahead * (guess - state.earlier), 0.0)
     pairs, slid = 0.0, stretch.slid
     scale = float(np.ptp(prepared.profile)) or 1.0
     model = losses.linearised(stretch.before, stretch.doses, guess, slid)
     for count in range(1, _MOST + 1):
         touching = guess > 0.0
-        typical = None
+        least = None
         if isinstance(model.bed, np.ndarray) and touching.any():
-            typical = float(model.bed[touching].mean())
-        operator = WearOperator(prepared.operator, model.bed, model.track, typical)
+            least = float(model.bed[touching].min())
+        operator = WearOperator(prepared.operator, model.bed, model.track, least)
         begun = _begun(state, model, operator) if count == 1 else InterfaceState(guess, state.memory)
         hollow = model.start if model.start.any() else None
         settled = prepared.settled(

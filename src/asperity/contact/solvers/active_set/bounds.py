@@ -119,7 +119,7 @@ def narrowed(work: Workspace, free: FreeSet, r: Any, *, rounds: int = 1) -> Narr
     for _ in range(rounds):
         predicted = r if change is None else splines.predicted_residual(left, r, free, change)
         system = LinearSystem(work.scaled, left, work.load is not None)
-        splines.factorise(left)
+        system.factorise()
         z = system.preconditioned(predicted, predicted, left.empty())
         # beyond single precision the step fails, and says so, as others do
         with np.errstate(over="ignore", invalid="ignore"):

@@ -15,10 +15,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ....core.arrays import RealArray
-from ....core.engine import Convolution, Engine, FreeSet, Products, Splines, Survey
+from ....core.engine import Convolution, Engine, FreeSet, Products, Splines, Survey, UnevenSplines
 from ...operators import Operator
 from ..protocol import ContactQP, FixedOffset, heights_near_contact
-from .spline_model import SplineCompliance, spline_compliance
+from .spline_model import OWN_YIELDING, SplineCompliance, spline_compliance
 
 # The compliance and the arrays of a problem.
 
@@ -56,6 +56,16 @@ class ScaledOperator:
     def splines(self) -> Splines:
         """Nested splines that model it."""
         return self.engine.splines(self.operator.grid.shape, self.modelled.model, self.dtype)
+
+    @cached_property
+    def uneven(self) -> tuple[UnevenSplines, RealArray] | None:
+        """The splines, and factors (nx, ny) to how points yield to their own load in the inverse;
+        None where all are alike, or the machine has no such splines."""
+        beside, splines = self.operator.beside, self.splines
+        if beside is None or not isinstance(splines, UnevenSplines):
+            return None
+        own = OWN_YIELDING / self.modelled.model.stiffness * self.scale
+        return splines, (own / (own + beside)).astype(self.dtype)
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,16 +171,38 @@ class LinearSystem:
         """Mean of a vector that sums to ``total``, where it is to be taken out."""
         return total / self.free.size if self.zero_sum and self.free.size else 0.0
 
+    @cached_property
+    def _uneven(self) -> tuple[UnevenSplines, Any] | None:
+        """The splines, and the factors (n,) to how points of the set yield to their own load."""
+        found = self.scaled.uneven
+        return None if found is None else (found[0], self.free.gather(found[1])[0])
+
+    def factorise(self) -> None:
+        """Prepare the preconditioner for the set."""
+        if self._uneven is None:
+            self.scaled.splines.factorise(self.free)
+        else:
+            splines, factors = self._uneven
+            splines.factorise(self.free, factors)
+
+    def _inverse(self, r: Any, other: Any, out: Any) -> Products:
+        """Approximate inverse of the model times ``r``, and its products with ``r`` and
+        ``other``."""
+        if self._uneven is None:
+            return self.scaled.splines.solve(self.free, r, other, out)
+        splines, factors = self._uneven
+        return self.free.products(splines.solve_with(self.free, r, factors), r, other)
+
     def preconditioned(self, r: Any, other: Any, out: Any, *, more: int = 0) -> Products:
         """Approximate inverse of K times ``r``, better by some ``more`` steps on the model, and its
         products with ``r`` and ``other``."""
         scaled = self.scaled
         steps = (_MODEL_STEPS if scaled.modelled.refined else 1) + more  # one is the approximate inverse of the model
         if self.modelled or steps == 1:
-            return scaled.splines.solve(self.free, r, other, out)
+            return self._inverse(r, other, out)
         model, stopping = replace(self, modelled=True), Stopping(0.0, steps - 1)
         found = conjugate_gradients(model, self.free.copy(r), stopping, further=_LAST_LENGTH).d
-        return scaled.splines.solve(self.free, r, other, out) if found is None else self.free.products(found, r, other)
+        return self._inverse(r, other, out) if found is None else self.free.products(found, r, other)
 
 
 # Conjugate gradients.
@@ -248,7 +280,7 @@ def conjugate_gradients(
     # what the pending change leaves of the residual, as the model predicts it
     predicted = r if pending is None else scaled.splines.predicted_residual(free, r, pending.free, pending.values)
     if not system.modelled:
-        scaled.splines.factorise(free)
+        system.factorise()
     if stopping.max_steps == 0:
         none = Correction(free.zeros(), 0.0, True, open=stopping.ending is not None)
         return _unmeasured(system, predicted, None, _STEP_LENGTH, none, stopping.more)

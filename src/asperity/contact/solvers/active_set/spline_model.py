@@ -256,6 +256,13 @@ _STEEP = 10.0
 form cells along both axes."""
 
 
+OWN_YIELDING = 0.5
+"""Deflection of a point under its own load, over that of any point in the inverse of nested
+splines, where points yield unlike. FFT pairs of contacts that yield for 0.3, 0.7, 1: 1 %, 2 %,
+230 % more; of beds of wear whose values differ by a factor of 3 for 0.25, 0.4, 0.7, 1: 28 %, 5 %,
+2 %, 15 % more."""
+
+
 class SplineCompliance(NamedTuple):
     """``model`` of a compliance, its steepness, by which factor c(q) q exceeds that of the shortest
     waves at waves of 16 points, more than 1 for stiff films thinner than that, and whether its
