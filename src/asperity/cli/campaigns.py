@@ -23,6 +23,7 @@ from ..report.study import (
     case_table,
     cause_table,
     derived_table,
+    sentences,
     summary,
     warning_texts,
     write_study_files,
@@ -125,13 +126,24 @@ def collect(folder: Folder) -> None:
     raise typer.Exit(_report(open_study(folder)))
 
 
+MOST_PRINTED = 24
+"""Rows of the table of cases on the terminal; the files hold all."""
+
+
 def _report(campaign: Campaign) -> int:
     """Write and print results; the exit code."""
     written = write_study_files(campaign, campaign.folder)
-    state, derived = campaign.state(), campaign.analysis()
+    state, derived, data = campaign.state(), campaign.analysis(), campaign.dataset()
     if derived is not None:
-        found = derived_table(campaign, campaign.dataset(), derived)
+        found = derived_table(campaign, data, derived)
         console().print(table("Findings", found.cells, found.headings))
+    else:
+        found = case_table(campaign, data)
+        few = len(found.cells) <= MOST_PRINTED
+        heading = "Cases" if few else f"The first {MOST_PRINTED} of {data['outcome'].size} cases"
+        console().print(table(heading, found.cells[:MOST_PRINTED], found.headings))
+    for text in sentences(campaign, data):
+        say(text)
     say(summary(campaign, state), "green" if state.complete and not state.failed else "yellow")
     _print_causes(campaign, state)
     print_files(written)

@@ -55,6 +55,14 @@ class Quantity:
         return {"units": self.unit, "long_name": self.label}
 
 
+@dataclass(frozen=True)
+class Limit:
+    """A limit of a quantity (SI): at most ``value``, or at ``least``."""
+
+    value: float
+    least: bool
+
+
 @dataclass(frozen=True, eq=False)
 class Labelled:
     """Numbers (SI) or text, and what they are."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -105,6 +106,62 @@ def _registry() -> Any:
     import pint
 
     return pint.UnitRegistry()
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """Powers of the base quantities in a unit, such as (("length", -1.0), ("mass", 1.0)); those
+    that are not there are 0."""
+
+    powers: tuple[tuple[str, float], ...]
+
+    def times(self, other: Dimension) -> Dimension:
+        """Dimension of the product of both."""
+        found = dict(self.powers)
+        for name, power in other.powers:
+            found[name] = found.get(name, 0.0) + power
+        return Dimension(tuple(sorted((name, power) for name, power in found.items() if abs(power) > _NO_POWER)))
+
+    def power(self, exponent: float) -> Dimension:
+        """Dimension of what has this one to the ``exponent``."""
+        return Dimension(tuple((name, power * exponent) for name, power in self.powers if exponent))
+
+
+_NO_POWER = 1e-9
+"""Power below which a base quantity is not there, but for rounding."""
+
+
+@cache
+def dimension(unit: str) -> Dimension:
+    """Dimension of what is measured in ``unit``, "1" or "" for plain numbers."""
+    if unit in ("", "1"):
+        return Dimension(())
+    found = _registry().get_dimensionality(unit)
+    return Dimension(tuple(sorted((name.strip("[]"), float(power)) for name, power in found.items())))
+
+
+_BASE_UNITS = {
+    "length": "m",
+    "mass": "kg",
+    "time": "s",
+    "temperature": "K",
+    "current": "A",
+    "substance": "mol",
+    "luminosity": "cd",
+}
+
+
+def unit_of(wanted: Dimension) -> str:
+    """SI unit of a dimension: one of ``DIMENSIONS`` where there is one, "1" for plain numbers."""
+    if not wanted.powers:
+        return "1"
+    usual = (unit for kind, unit in DIMENSIONS.items() if kind not in ("number", "angle", "memory"))
+    known = next((unit for unit in usual if dimension(unit) == wanted), None)
+    if known is not None:
+        return known
+    return "*".join(
+        _BASE_UNITS[name] if power == 1.0 else f"{_BASE_UNITS[name]}**{power:g}" for name, power in wanted.powers
+    )
 
 
 class _OtherDimensionError(Exception):

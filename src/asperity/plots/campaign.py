@@ -26,6 +26,7 @@ from .picture import (
     legend_above,
     literal,
     scale,
+    wide_range,
 )
 
 if TYPE_CHECKING:
@@ -33,9 +34,6 @@ if TYPE_CHECKING:
 
 COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 """Colours of curves in turn."""
-
-LOGARITHMIC = 30.0
-"""Ratio of largest and smallest value beyond which an axis is logarithmic."""
 
 
 MOST_TICKS = 8
@@ -84,8 +82,7 @@ def plot_curves(x: Labelled, y: Labelled, curves: Sequence[Curve], ax: Axes) -> 
         (x.values, ax.set_xscale),
         (np.concatenate([curve.values for curve in curves]), ax.set_yscale),
     ):
-        good = drawn[np.isfinite(drawn)]
-        if good.size and good.min() > 0.0 and good.max() / good.min() > LOGARITHMIC:
+        if wide_range(drawn):
             set_scale("log")
     return _labelled(ax, (x.quantity.label, along), (y.quantity.label, up), legend=any(curve.label for curve in curves))
 
@@ -178,16 +175,17 @@ def plot_sensitivities(
         ax.barh(rows, along(values)[order] - middle, left=middle, height=0.6, color=colour, label=label)
     ax.axvline(middle, color=BLACK, linewidth=0.8)
     ax.set_yticks(rows, [literal(names[number]) for number in order])
-    ax.set_xlabel(_text(y.quantity.label, along))
+    ax.set_xlabel(with_unit(y.quantity.label, along))
     return legend_above(ax)
 
 
 def _labelled(ax: Axes, x: tuple[str, Scale], y: tuple[str, Scale], *, legend: bool) -> Axes:
-    ax.set(xlabel=_text(*x), ylabel=_text(*y))
+    ax.set(xlabel=with_unit(*x), ylabel=with_unit(*y))
     ax.grid(visible=True, color=NO_CONTACT, linewidth=0.6)
     ax.set_axisbelow(True)
     return legend_above(ax) if legend else ax
 
 
-def _text(label: str, unit: Scale) -> str:
+def with_unit(label: str, unit: Scale) -> str:
+    """``label`` of an axis with its unit, in lines."""
     return "\n".join(wrap(f"{label} ({unit.symbol})" if unit.symbol else label, LINE))

@@ -107,6 +107,16 @@ def scale(values: RealArray | float, unit: str) -> Scale:
     return Scale(symbol, units.parse_in(f"1 {symbol}", unit, "unit of an axis"))
 
 
+LOGARITHMIC = 30.0
+"""Ratio of largest and smallest value beyond which an axis is logarithmic."""
+
+
+def wide_range(values: RealArray) -> bool:
+    """Whether positive ``values`` need a logarithmic axis."""
+    good = values[np.isfinite(values)]
+    return bool(good.size and good.min() > 0.0 and good.max() / good.min() > LOGARITHMIC)
+
+
 def colour_table(name: str) -> bytes:
     """Red, green and blue of the 256 colours of the colour map ``name``, a byte each."""
     from matplotlib import colormaps

@@ -34,6 +34,8 @@ from ..studies.campaign import Campaign
 from ..studies.collect import CampaignState, Cause
 from ..studies.monte_carlo import CONFIDENCE, estimate
 from .page import shown, software_rows, write_page
+from .points import axis_name, axis_words, coordinate_text, labelled, point_text
+from .sweeps import MOST_CURVES, curves_axis, first_of, influence_texts, region_text, sweep_figures
 
 if TYPE_CHECKING:
     import xarray
@@ -45,63 +47,19 @@ if TYPE_CHECKING:
 Draw: TypeAlias = "Callable[[Campaign, Any, Any, str], Iterator[Figure]]"
 """Draws the figures of one quantity from results and derived numbers."""
 
-MOST_CURVES = 7
-"""Curves in one figure."""
-
 
 def study_figures(campaign: Campaign, data: xarray.Dataset, derived: xarray.Dataset | None) -> list[Figure]:
     """Figures of the results ``data`` of a study and of what was ``derived`` from them: one or more
     for each quantity."""
-    draw: Draw = _DRAWN.get(campaign.study.document.kind, _sweep)
-    return [figure for name in campaign.study.document.quantities for figure in draw(campaign, data, derived, name)]
-
-
-def labelled(variable: xarray.DataArray) -> Labelled:
-    """Values, unit and label of ``variable``."""
-    attributes = variable.attrs
-    label = str(attributes.get("long_name", variable.name)).rpartition(".")[2].replace("_", " ")
-    quantity = Quantity(str(variable.name), str(attributes.get("units", "1")), label)
-    return Labelled(quantity, np.asarray(variable, dtype=float))
-
-
-def point_text(coordinate: xarray.DataArray) -> str:
-    """Name and value of one point of an axis."""
-    text = coordinate_text(coordinate.item(), str(coordinate.attrs.get("units", "1")))
-    return f"{str(coordinate.name).replace('_', ' ')} {text}"
-
-
-def coordinate_text(value: float | str, unit: str) -> str:
-    """Where a point lies on its axis; only thicknesses are infinite, and mean that the layer never
-    ends."""
-    if isinstance(value, str):
-        return value
-    return "endless" if math.isinf(value) else show(float(value), unit)
-
-
-def curves_axis(data: xarray.DataArray) -> str | None:
-    """The axis of numbers with the most points, of which there must be two; None without."""
-    numeric = {str(dim): size for dim, size in data.sizes.items() if size > 1 and data[dim].dtype.kind == "f"}
-    return max(numeric, key=lambda dim: numeric[dim]) if numeric else None
-
-
-def _sweep(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
-    array = data[name]
-    along = curves_axis(array)
-    if along is None:
-        return
-    rows, more = _rows(array, along)
-    y = labelled(array)
-    x = labelled(data[along] if along != "case" else data[along].assign_attrs(long_name="case"))
-    caption = f"{y.quantity.title} against {x.quantity.label}{more}."
-    curves = [Curve(text, np.asarray(row)) for text, row in rows]
-    yield curve_figure(name, y.quantity.title, caption, lambda ax: plot_curves(x, y, curves, ax))
+    draw: Draw = _DRAWN.get(campaign.study.document.kind, lambda of, data, _, name: sweep_figures(of, data, name))
+    return [figure for name in campaign.plan.columns for figure in draw(campaign, data, derived, name)]
 
 
 def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
     array, y = data[name], labelled(data[name])
     means = derived[f"{name}_mean"]
     along = curves_axis(means)
-    first, more = _first(array, "sample")
+    first, more = first_of(array, "sample")
     if along is not None:
         rows, where = _rows(means, along)
         bands, _ = _rows(derived[f"{name}_deviation"], along)
@@ -133,8 +91,8 @@ def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
 def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
     table = campaign.study.document.convergence
     assert table is not None
-    array, more = _first(data[name], "level")
-    limit, _ = _first(derived[f"{name}_extrapolated"], "")
+    array, more = first_of(data[name], "level")
+    limit, _ = first_of(derived[f"{name}_extrapolated"], "")
     label = {"grid": "points along x", "domain": "factor on the size"}.get(table.of, "tolerance")
     levels = Labelled(Quantity("level", "1", label), np.asarray(data["level"], dtype=float))
     y = labelled(array)
@@ -158,9 +116,9 @@ def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str)
 
 
 def _sensitivity(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
-    low, more = _first(derived[f"{name}_low"], "scalar")
-    high, _ = _first(derived[f"{name}_high"], "scalar")
-    base, _ = _first(data[name].isel(parameter=0), "")
+    low, more = first_of(derived[f"{name}_low"], "scalar")
+    high, _ = first_of(derived[f"{name}_high"], "scalar")
+    base, _ = first_of(data[name].isel(parameter=0), "")
     names, y = [str(text) for text in np.asarray(derived["scalar"])], labelled(data[name])
     size = (CURVE_SIZE[0], max(1.6, 0.8 + 0.35 * len(names)))
     caption = f"{y.quantity.label} at the low and the high value of each scalar{more}."
@@ -183,20 +141,13 @@ def _rows(array: xarray.DataArray, along: str) -> tuple[list[tuple[str, xarray.D
     """Rows of ``array`` along one axis with the points of the longest other axis as text; and where
     the rest stands."""
     others = sorted((str(dim) for dim in array.dims if dim != along), key=lambda dim: -array.sizes[dim])
-    fixed, more = _first(array, along, *others[:1])
+    fixed, more = first_of(array, along, *others[:1])
     if not others:
         return [("", fixed)], more
     count = array.sizes[others[0]]
     points = [round(number) for number in np.linspace(0, count - 1, min(count, MOST_CURVES))]
     rows = [(point_text(array[others[0]][number]), fixed.isel({others[0]: number})) for number in points]
     return rows, more
-
-
-def _first(array: xarray.DataArray, *kept: str) -> tuple[xarray.DataArray, str]:
-    """``array`` at the first point of all axes that are not ``kept``, and these points as text."""
-    dims = [str(dim) for dim in array.dims if dim not in kept]
-    texts = [point_text(array[dim][0]) for dim in dims]
-    return array.isel(dict.fromkeys(dims, 0)), f", at {', '.join(texts)}" if texts else ""
 
 
 # The numbers of a study in words for tables.
@@ -241,14 +192,21 @@ def summary(campaign: Campaign, state: CampaignState) -> str:
     """One or two sentences on the study and how far it is."""
     kind = KINDS[campaign.study.document.kind]
     total = state.done + state.failed + state.missing
-    counts = {axis.name: len(axis) for axis in campaign.plan.axes}
+    counts = [len(axis) for axis in campaign.plan.axes]
     if state.samples is not None:
-        counts["sample"] = state.samples
-    axes = " × ".join(f"{count} {name.replace('_', ' ')}" for name, count in counts.items())
+        counts[0] = state.samples
+    axes = " × ".join(f"{count} {axis_name(axis)}" for count, axis in zip(counts, campaign.plan.axes, strict=True))
     text = f"{kind}: {total} cases ({axes}). {state.done} done, {state.failed} failed, {state.missing} missing."
     if state.samples is not None:
         text += f" The mean was known well enough after {state.samples} samples."
     return text
+
+
+def sentences(campaign: Campaign, data: xarray.Dataset) -> list[str]:
+    """What a sweep says as a whole: where all limits hold, and which axis decides each quantity."""
+    if campaign.study.document.kind != "sweep":
+        return []
+    return [text for text in (region_text(campaign, data), *influence_texts(campaign, data)) if text]
 
 
 def axis_rows(campaign: Campaign) -> Rows:
@@ -258,7 +216,7 @@ def axis_rows(campaign: Campaign) -> Rows:
         ends = [axis.points[number].coordinate for number in (0, len(axis) - 1)]
         texts = [coordinate_text(end, axis.unit) for end in ends]
         where = f" ({axis.path})" if axis.path else ""
-        rows.append((f"{axis.name.replace('_', ' ')}{where}", f"{len(axis)} points, {texts[0]} to {texts[1]}"))
+        rows.append((f"{axis_name(axis)}{where}", f"{len(axis)} points, {texts[0]} to {texts[1]}"))
     for table in () if campaign.study.document.monte_carlo is None else campaign.study.document.monte_carlo.random:
         values = {key: getattr(table, key) for key in ("mean", "deviation", "low", "high")}
         given = ", ".join(f"{key} {value}" for key, value in values.items() if value is not None)
@@ -270,7 +228,7 @@ def derived_table(campaign: Campaign, data: xarray.Dataset, derived: xarray.Data
     """Derived numbers of every quantity at every point of the other axes."""
     columns = COLUMNS[campaign.study.document.kind]
     cells: list[tuple[str, ...]] = []
-    for name in campaign.study.document.quantities:
+    for name in campaign.plan.columns:
         label = str(data[name].attrs["long_name"])
         shape = derived[f"{name}_{columns[0][0]}"]
         for at in np.ndindex(shape.shape):
@@ -286,15 +244,18 @@ def derived_table(campaign: Campaign, data: xarray.Dataset, derived: xarray.Data
 
 def case_table(campaign: Campaign, data: xarray.Dataset) -> Table:
     """The first cases with their coordinates and quantities."""
-    names = campaign.study.document.quantities
+    names = (*(item.quantity.name for item in campaign.plan.derived if not item.measured), *campaign.plan.columns)
     dims = [str(dim) for dim in data["outcome"].dims]
-    headings = (*(dim.replace("_", " ") for dim in dims), *(str(data[name].attrs["long_name"]) for name in names))
+    headings = (*(axis_words(data[dim]) for dim in dims), *(str(data[name].attrs["long_name"]) for name in names))
     cells: list[tuple[str, ...]] = []
     for at in np.ndindex(data["outcome"].shape):
         if len(cells) == MOST_ROWS:
             break
         place = dict(zip(dims, at, strict=True))
-        row = [point_text(data[dim][number]).removeprefix(f"{dim.replace('_', ' ')} ") for dim, number in place.items()]
+        row = [
+            coordinate_text(data[dim][number].item(), str(data[dim].attrs.get("units", "1")))
+            for dim, number in place.items()
+        ]
         row += [_text(float(data[name].isel(place)), str(data[name].attrs["units"])) for name in names]
         cells.append(tuple(row))
     return Table(headings, tuple(cells))
@@ -317,12 +278,13 @@ def _cases(count: int) -> str:
 def cause_table(campaign: Campaign, causes: Iterable[Cause], heading: str) -> Table:
     """``causes`` of failures, warnings or notes with their number and first case."""
     units: dict[str, str] = {}
+    words = {axis.name: axis_name(axis) for axis in campaign.plan.axes}
     for axis in campaign.plan.axes:
         units |= {axis.name: axis.unit, **axis.columns}
     cells = []
     for cause in causes:
         places = (
-            f"{name.replace('_', ' ')} = {coordinate_text(value, units.get(name, '1'))}"
+            f"{words.get(name, name.replace('_', ' '))} = {coordinate_text(value, units.get(name, '1'))}"
             for name, value in cause.first.at.items()
         )
         cells.append((str(cause.count), f"{cause.kind}: {cause.first.message}", ", ".join(places)))
@@ -365,6 +327,7 @@ def write_study_report(
         title=campaign.title,
         state=state,
         summary=summary(campaign, state),
+        sentences=sentences(campaign, data),
         warnings=warning_texts(state),
         axes=axis_rows(campaign),
         tables=[(name, heading, table) for name, heading, table in found if table is not None and table.cells],

@@ -22,31 +22,34 @@ UNITS = {"order": "1", "remark": "", "error": "1", "count": "1", "floor": "m", "
 """Units of derived numbers that are not those of the quantity."""
 
 
-def analysis(data: xarray.Dataset, document: StudyDocument) -> xarray.Dataset | None:
-    """Derived numbers of the results ``data``: variables such as ``max_pressure_mean``; None for a
-    sweep.
+def analysis(
+    data: xarray.Dataset, document: StudyDocument, columns: tuple[str, ...] | None = None
+) -> xarray.Dataset | None:
+    """Derived numbers of the ``columns`` of the results ``data``, the quantities asked for by
+    default: variables such as ``max_pressure_mean``; None for a sweep.
 
     monte_carlo: ``mean``, ``deviation``, ``half_width``, ``count``; convergence: ``order``,
     ``extrapolated``, ``error``, ``remark``; critical_thickness: ``floor``, ``ceiling``,
     ``at_zero``, ``at_infinity``; sensitivity, along ``scalar``: ``low``, ``high``, ``elasticity``,
     ``slope``.
     """
+    columns = document.quantities if columns is None else columns
     if document.monte_carlo is not None:
         stop = document.monte_carlo.stop
         confidence = CONFIDENCE if stop is None else stop.confidence
-        return _reduced(data, document.quantities, "sample", lambda values: estimate(values, confidence))
+        return _reduced(data, columns, "sample", lambda values: estimate(values, confidence))
     if document.convergence is not None:
         steps = step_sizes(document.convergence.of, [float(level) for level in data["level"]])
-        return _reduced(data, document.quantities, "level", lambda values: convergence(steps, list(values)))
+        return _reduced(data, columns, "level", lambda values: convergence(steps, list(values)))
     if document.critical_thickness is not None:
         inside, share = np.asarray(data["thickness"])[1:-1], document.critical_thickness.share
         return _reduced(
             data,
-            document.quantities,
+            columns,
             "thickness",
             lambda values: critical_thickness(inside, values[1:-1], float(values[0]), float(values[-1]), share=share),
         )
-    return None if document.sensitivity is None else _sensitivities(data, document.quantities)
+    return None if document.sensitivity is None else _sensitivities(data, columns)
 
 
 def _reduced(

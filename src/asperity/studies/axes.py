@@ -14,6 +14,7 @@ from ..core import require
 from ..core.errors import InputError
 from ..io.schemas.study import AxisTable
 from ..run.document import ProblemDocument, checked
+from .expressions import Expression
 from .places import Edit, Place, edited, locate, problem_table
 
 Coordinate: TypeAlias = float | str
@@ -31,11 +32,22 @@ class Point:
 
 
 @dataclass(frozen=True)
+class Rule:
+    """How an axis sets the scalar at ``place``: by an ``expression``, which takes its values, other
+    axes and scalars."""
+
+    place: Place
+    expression: Expression
+
+
+@dataclass(frozen=True)
 class Axis:
     """One dimension of a study.
 
     ``points`` may be made when they are asked for. ``columns`` holds the units of the columns of
-    its points; ``is_load``: its points differ in the load alone.
+    its points; ``is_load``: its points differ in the load alone; ``title``: the name that the study
+    gives it. Points of an axis with a ``rule`` have no changes of their own: these depend on the
+    other axes.
     """
 
     name: str
@@ -44,6 +56,8 @@ class Axis:
     points: Sequence[Point]
     is_load: bool = False
     columns: Mapping[str, str] = field(default_factory=dict)
+    rule: Rule | None = None
+    title: str = ""
 
     def __len__(self) -> int:
         return len(self.points)
@@ -107,7 +121,7 @@ def make_axis(base: Base, table: AxisTable, name: str) -> Axis:
     if not all(isinstance(point.coordinate, float) for point in points):  # all of them numbers, or else all words
         points = [Point(str(point.coordinate), point.edits, point.columns) for point in points]
     is_load = place.is_load and all(other.is_load for other, _ in followers)
-    return Axis(name, place.unit, place.path, tuple(points), is_load)
+    return Axis(name, place.unit, place.path, tuple(points), is_load, title=table.name or "")
 
 
 def listed(axes: Sequence[Axis]) -> Axis:
@@ -116,8 +130,14 @@ def listed(axes: Sequence[Axis]) -> Axis:
     Raises
     ------
     InputError
-        If they are not equally long.
+        If they are not equally long, or one sets its scalar by an expression.
     """
+    for part in axes:
+        if part.rule is not None:
+            raise InputError(
+                f'axes of a study with combine = "list" must have values of their scalars, but {part.name} has an '
+                "expression; list the values, or combine the axes as a grid."
+            )
     lengths = {part.name: len(part) for part in axes}
     if len(set(lengths.values())) > 1:
         shown = ", ".join(f"{name} has {count}" for name, count in lengths.items())

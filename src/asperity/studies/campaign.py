@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core.errors import FileFormatError, OutputError
+from ..core.errors import FileFormatError, InputError, OutputError
 from ..core.words import printable
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ class Campaign:
         None for a sweep."""
         from .analysis import analysis
 
-        return analysis(self.dataset(), self.study.document)
+        return analysis(self.dataset(), self.study.document, self.plan.columns)
 
     def findings(self) -> tuple[Cause, ...]:
         """Warnings and notes of the cases, counted by their criterion; each with its first case."""
@@ -173,7 +173,8 @@ def prepare_study(
         beside = Path(study).with_name(f"{Path(study).stem}-results")
         loaded, target = load_study(study), beside if folder is None else Path(folder)
     campaign = Campaign(target, loaded)
-    _ = campaign.plan  # all mistakes are found before anything is written
+    if refused := campaign.plan.refused():  # all mistakes are found before anything is written
+        raise InputError(f"every case of the study would fail, and so would its problem: {refused}", subject="study")
     if target.is_dir() and any(target.iterdir()) and not (target / STUDY).is_file():
         raise OutputError(
             f"folder of a study must be new, empty, or hold its results, but {target} holds something else; "

@@ -18,6 +18,7 @@ from ..io.description import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions
 from .axes import Coordinate
+from .derived import derived_values
 from .evaluate import CHECKS
 from .plan import Plan, measures
 from .run import stop_quantity, stopping
@@ -73,7 +74,9 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
     """
     import xarray
 
-    wanted = tuple(dict.fromkeys((*plan.document.quantities, *(q for q in [stop_quantity(plan)] if q))))
+    taken = [name for item in plan.derived for name in item.expression.names if name in measures()]
+    taken += [name for name, _ in plan.limits if name in measures()]
+    wanted = tuple(dict.fromkeys((*plan.document.quantities, *(q for q in [stop_quantity(plan)] if q), *taken)))
     values = {name: np.full(plan.n_cases, np.nan) for name in (*wanted, *KEPT_CHECKS)}
     outcome = np.full(plan.n_cases, MISSING, np.int8)
     errors, cited = dict[int, str](), dict[str, None]()
@@ -96,6 +99,13 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
     variables: dict[str, Any] = {
         name: (dims, array.reshape(plan.shape), known[name].attributes) for name, array in values.items()
     }
+    if plan.derived:
+        shaped = {name: array.reshape(plan.shape) for name, array in values.items()}
+        found = derived_values(plan.derived, plan.scalars, shaped)
+        variables |= {
+            one.quantity.name: (dims, np.array(found[one.quantity.name]), one.quantity.attributes)
+            for one in plan.derived
+        }
     codes = {"flag_values": np.array([DONE, FAILED, MISSING], np.int8), "flag_meanings": "done failed missing"}
     labels: dict[str, Any] = {"long_name": "what became of the case", **codes}
     variables["outcome"] = (dims, outcome.reshape(plan.shape), labels)
@@ -106,17 +116,6 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
         texts = np.full(plan.n_cases, "", object)
         texts[list(errors)] = list(errors.values())
         variables["error"] = (dims, texts.reshape(plan.shape), {"long_name": "why the case failed"})
-    coordinates: dict[str, Any] = {}
-    for item in plan.axes:
-        labels = {item.name: {"units": item.unit, "long_name": item.path or item.name}}
-        columns: dict[str, list[Any]] = {item.name: [point.coordinate for point in item.points]}
-        for name, unit in item.columns.items():
-            labels[name] = {"units": unit} if unit else {}
-            columns[name] = [point.columns[name] for point in item.points]
-        for name, column in columns.items():
-            numbers = all(isinstance(value, float) for value in column)
-            array = np.array(column, float) if numbers else np.array([str(value) for value in column], object)
-            coordinates[name] = (item.name, array, labels[name])
     attributes = {
         "title": plan.document.title,
         "kind": plan.document.kind,
@@ -125,9 +124,25 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
         "citation_keys": " ".join(cited),
         "study": study,
     }
-    made = xarray.Dataset(variables, coordinates, attributes)
+    made = xarray.Dataset(variables, _coordinates(plan), attributes)
     end = stopped_at(plan, path)
     return made if end is None else made.isel(sample=slice(end))
+
+
+def _coordinates(plan: Plan) -> dict[str, Any]:
+    """Points of the axes and their columns, with units and words."""
+    coordinates: dict[str, Any] = {}
+    for item in plan.axes:
+        labels = {item.name: {"units": item.unit, "long_name": item.title or item.path or item.name}}
+        columns: dict[str, list[Any]] = {item.name: [point.coordinate for point in item.points]}
+        for name, unit in item.columns.items():
+            labels[name] = {"units": unit} if unit else {}
+            columns[name] = [point.columns[name] for point in item.points]
+        for name, column in columns.items():
+            numbers = all(isinstance(value, float) for value in column)
+            array = np.array(column, float) if numbers else np.array([str(value) for value in column], object)
+            coordinates[name] = (item.name, array, labels[name])
+    return coordinates
 
 
 def stopped_at(plan: Plan, path: Path) -> int | None:

@@ -11,18 +11,22 @@ from functools import cached_property
 from math import prod
 from typing import Any
 
+from ..core import require
 from ..core.arrays import content_digest
 from ..core.errors import InputError
-from ..core.quantity import Quantity
+from ..core.quantity import Limit, Quantity
 from ..core.status import is_large, require_memory, room_text
+from ..core.units import parse_in
 from ..io.description import software
-from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
+from ..io.schemas.study import AxisTable, LimitTable, RandomTable, StudyDocument
 from ..parts.registry import parts, versions
 from ..run.build import stated_points
 from ..run.document import ProblemDocument
+from ..run.refusals import refusals
 from .axes import Axis, Base, Coordinate, listed, make_axis
 from .convergence import level_axis
 from .critical_thickness import thickness_axis
+from .derived import Derived, Scalars, derived_numbers, located, ruled_axis
 from .documents import LoadedStudy
 from .local import available_cores
 from .monte_carlo import sample_axis
@@ -54,12 +58,21 @@ class Plan:
         Dimensions, the slowest first.
     quantities
         What is computed of each case.
+    scalars
+        Scalars over all cases, by the letters of the study.
+    derived
+        What is derived from these and the quantities.
+    limits
+        Names of quantities, and the limits that they are held against.
     """
 
     document: StudyDocument
     base: Base
     axes: tuple[Axis, ...]
     quantities: tuple[str, ...]
+    scalars: Scalars
+    derived: tuple[Derived, ...] = ()
+    limits: tuple[tuple[str, Limit], ...] = ()
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -71,10 +84,27 @@ class Plan:
         """Number of cases; of a study that stops by itself the largest."""
         return prod(self.shape)
 
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the results of a case: quantities asked for, and what is derived from them."""
+        return (*self.document.quantities, *(item.quantity.name for item in self.derived if item.measured))
+
     @cached_property
     def table(self) -> dict[str, Any]:
         """The base problem as nested dictionaries."""
         return problem_table(self.base.document)
+
+    def refused(self) -> str:
+        """Why all cases at the ends of the axes would be refused, the base problem too, by the
+        first of them; empty where one would not."""
+        text = ""
+        ends = itertools.product(*(sorted({0, len(item) - 1}) for item in self.axes))
+        for edits in ((), *map(self.edits, itertools.islice(ends, MOST_ENDS))):
+            found = refusals(edited(self.table, edits), self.base.folder)
+            if not found:
+                return ""
+            text = text or found[0].text
+        return text
 
     @cached_property
     def _content(self) -> dict[str, Any]:
@@ -95,23 +125,20 @@ class Plan:
         outer = [number for number, item in enumerate(self.axes) if not item.is_load]
         inner = [number for number, item in enumerate(self.axes) if item.is_load]
         loads = list(itertools.product(*(range(len(self.axes[i])) for i in inner)))
-        loads.sort(
-            key=lambda at: tuple(
-                (edit.keys[-1], edit.content)
-                for i, number in zip(inner, at, strict=True)
-                for edit in self.axes[i].points[number].edits
-            )
-        )
         for fixed in itertools.product(*(range(len(self.axes[i])) for i in outer)):
-            points = {i: self.axes[i].points[at] for i, at in zip(outer, fixed, strict=True)}
             path = []
             for load in loads:
                 at = dict(zip(outer, fixed, strict=True)) | dict(zip(inner, load, strict=True))
-                here = points | {i: self.axes[i].points[at[i]] for i in inner}
-                order = range(len(self.axes))
-                edits = tuple(edit for i in order for edit in here[i].edits)
-                path.append(StudyCase(tuple(at[i] for i in order), edits, self.key(edits)))
+                index = tuple(at[i] for i in range(len(self.axes)))
+                edits = self.edits(index)
+                path.append(StudyCase(index, edits, self.key(edits)))
+            path.sort(key=_load)
             yield tuple(path)
+
+    def edits(self, index: Sequence[int]) -> tuple[Edit, ...]:
+        """Changes of the base problem that make the case at ``index``."""
+        points = (item.points[at] for item, at in zip(self.axes, index, strict=True))
+        return self.scalars.ruled(index, tuple(edit for point in points for edit in point.edits))
 
     def key(self, edits: Sequence[Edit]) -> str:
         """Digest of the content of a case: its problem, the quantities and the version of the
@@ -125,6 +152,11 @@ class Plan:
             point = item.points[number]
             found |= {item.name: point.coordinate, **point.columns}
         return found
+
+
+def _load(case: StudyCase) -> list[Any]:
+    """What puts the cases of a path in the order of their loads."""
+    return [(edit.keys[-1], edit.content) for edit in case.edits if edit.keys[0] == "control"]
 
 
 def make_plan(study: LoadedStudy) -> Plan:
@@ -143,7 +175,10 @@ def make_plan(study: LoadedStudy) -> Plan:
         raise InputError(f"axis of a study must have at most {MOST_POINTS} points, but one has {max(counts)}.")
     require_memory(memory, "study", f"{cases:.3g} cases", "give fewer points or samples")
     names = _names(document)
-    axes = [make_axis(base, table, name) for table, name in zip(document.axes, names, strict=False)]
+    axes = [
+        make_axis(base, table, name) if table.expression is None else ruled_axis(base, table, name)
+        for table, name in zip(document.axes, names, strict=False)
+    ]
     if document.combine == "list" and axes:
         axes = [listed(axes)]
     if document.monte_carlo is not None:
@@ -156,18 +191,48 @@ def make_plan(study: LoadedStudy) -> Plan:
         axes.append(parameter_axis(base, document.sensitivity))
     seen: dict[tuple[Any, ...], str] = {}
     for item in axes:
-        for edit in (edit for point in item.points[:3] for edit in point.edits):
-            keys = ("control",) if edit.keys[0] == "control" else edit.keys
+        set_here = [edit.keys for point in item.points[:3] for edit in point.edits]
+        for own in [*set_here, *([] if item.rule is None else [item.rule.place.keys])]:
+            keys = ("control",) if own[0] == "control" else own
             for known, name in seen.items():
                 shared = min(len(known), len(keys))
                 if known[:shared] == keys[:shared] and name != item.name:
-                    shown = ".".join(map(str, edit.keys))
+                    shown = ".".join(map(str, own))
                     raise InputError(f"axes must vary different scalars, but {name} and {item.name} both set {shown}.")
             seen[keys] = item.name
     stop = None if document.monte_carlo is None else document.monte_carlo.stop
     asked = (*document.quantities, *(() if stop is None else (stop.quantity,)))
-    return Plan(document, base, tuple(axes), computed(study.problem, asked))
+    scalars = Scalars(base, tuple(axes), located(base, document.letters))
+    scalars.require_rules()
+    derived = derived_numbers(document.derived, scalars, measures()) if document.derived else ()
+    limited = tuple(_limit(table, derived) for table in document.limits)
+    taken = (*(name for item in derived for name in item.expression.names), *(name for name, _ in limited))
+    asked = (*asked, *(name for name in taken if name in measures()))
+    return Plan(document, base, tuple(axes), computed(study.problem, asked), scalars, derived, limited)
 
+
+def _limit(table: LimitTable, derived: Iterable[Derived]) -> tuple[str, Limit]:
+    """The quantity that ``table`` limits, and the limit in SI."""
+    known = measures() | {item.quantity.name: item.quantity for item in derived}
+    if table.quantity not in known:
+        near = difflib.get_close_matches(table.quantity, known, n=3, cutoff=0.4)
+        raise InputError(
+            f"quantity of a limit must be a result or a derived number, but {table.quantity!r} is none"
+            f"{'; did you mean ' + ' or '.join(near) + '?' if near else '.'}"
+        )
+    least = table.at_least is not None
+    value, unit = table.at_least if table.at_least is not None else table.at_most, known[table.quantity].unit
+    what = f"limit of {table.quantity}"
+    if isinstance(value, str):
+        return table.quantity, Limit(parse_in(value, "" if unit == "1" else unit, what), least)
+    if unit != "1":
+        raise InputError(f"{what} must be text with a number and a unit such as {unit}, but is {value!r}.")
+    assert value is not None
+    return table.quantity, Limit(require.finite(value, what), least)
+
+
+MOST_ENDS = 16
+"""Cases that are looked at before the first is solved."""
 
 MOST_POINTS = 100_000
 """Points of an axis that is no axis of samples; each is checked before the first case, which takes

@@ -90,7 +90,7 @@ def test_findings_of_critical_thickness_are_in_the_page(tmp_path):
         "floor",
         "ceiling",
         "endless layer",
-        "control mean pressure 1 MPa",
+        "mean pressure 1 MPa",
         "Study of critical thickness: 18 cases",
         "6 points, 0 m to endless",
     ):

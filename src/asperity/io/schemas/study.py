@@ -57,12 +57,47 @@ class AxisTable(_Range):
     """One scalar of the problem and its values; scalars named in ``also`` follow it.
 
     ``also`` gives for each further path as many values, or a number: that many times the value of
-    this axis.
+    this axis. With an ``expression`` the values are plain numbers, and it makes the scalar of them
+    (by the name of the axis), other axes and letters.
     """
 
     path: NonEmpty
     name: NonEmpty | None = None
     also: dict[str, Values | Positive] = Field(default_factory=dict)
+    expression: NonEmpty | None = None
+
+    @model_validator(mode="after")
+    def _named(self) -> AxisTable:
+        if self.expression is not None and self.name is None:
+            raise InputError(" must have a name for its values, because an expression takes them, but has none.")
+        return self
+
+
+class LimitTable(Settings):
+    """A ``quantity`` that must be ``at_least`` or ``at_most`` a limit, text with a unit where it
+    has one."""
+
+    quantity: NonEmpty
+    at_least: str | int | float | None = None
+    at_most: str | int | float | None = None
+
+    @model_validator(mode="after")
+    def _one_limit(self) -> LimitTable:
+        if (self.at_least is None) == (self.at_most is None):
+            given = "neither" if self.at_least is None else "both"
+            raise InputError(f" must give exactly one of at_least and at_most, but gives {given}.")
+        return self
+
+
+class DerivedTable(Settings):
+    """A number by an ``expression`` of letters, axes and quantities, and its ``label`` in words."""
+
+    expression: NonEmpty
+    label: str = ""
+
+
+def _derived(value: object) -> object:
+    return {"expression": value} if isinstance(value, str) else value
 
 
 class RandomTable(Settings):
@@ -211,7 +246,8 @@ class StudyDocument(Settings):
     kind.
 
     ``combine`` is ``"grid"`` for all combinations of the axes or ``"list"`` for their first values
-    together, their second, and so on.
+    together, their second, and so on. ``letters`` name scalars by their paths, for the expressions
+    of ``derived`` numbers and of axes; ``limits`` are what cases are held against.
     """
 
     version: Literal[1]
@@ -219,6 +255,9 @@ class StudyDocument(Settings):
     problem: str | dict[str, Any]
     quantities: tuple[NonEmpty, ...] = DEFAULT_QUANTITIES
     combine: Literal["grid", "list"] = "grid"
+    letters: dict[str, NonEmpty] = Field(default_factory=dict)
+    derived: dict[str, Annotated[DerivedTable, BeforeValidator(_derived)]] = Field(default_factory=dict)
+    limits: tuple[LimitTable, ...] = ()
     axes: tuple[AxisTable, ...] = ()
     monte_carlo: MonteCarloTable | None = None
     convergence: ConvergenceTable | None = None
