@@ -25,7 +25,9 @@ def axis_words(variable: xarray.DataArray) -> str:
     """What ``variable`` is, in words: its label, or the scalar at the end of the path of an
     axis."""
     label = str(variable.attrs.get("long_name", variable.name))
-    return path_words(label) if "." in label and " " not in label else label.replace("_", " ")
+    if " " in label:
+        return label
+    return path_words(label) if "." in label else label.replace("_", " ")
 
 
 def axis_name(axis: Axis) -> str:
