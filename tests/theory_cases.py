@@ -128,6 +128,8 @@ EXAMPLES = {
     "least-area": {"hardness": 8e9},
     "effective-hardness": {"coating": 15e9, "substrate": 9e9, "modulus_ratio": 0.7},
     "oliver-pharr": {"load": 1e-3, "depth": 1e-7, "stiffness": 4e4},
+    "roughness-window": {"E_star": 1.1e11, "hardness": 1e10, **FILM, "load": 0.1, "area": 1e-6},
+    "designed-caps": {"E_star": 1.1e11, "hardness": 1e10, **FILM, "load": 0.05},
     "statistical-meniscus": {**SUMMITS, **FILM, "skewness": 0.3, "kurtosis": 3.5},
     "kinetic-meniscus": {**SUMMITS, **FILM, "viscosity": 0.1, "hamaker_constant": 5e-20},
     "droplet-meniscus": {"radius": 1e-6, "surface_tension": 0.072, "contact_angle": 0.5, "immersion": 5e-9},

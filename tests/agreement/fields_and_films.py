@@ -97,6 +97,23 @@ def dry_summits(tension: float) -> float:
     return apart(found.area_fraction, dry.area_fraction)
 
 
+def window_of_share(share: float) -> float:
+    """Meniscus force of summits of the smallest roughness, over the share of the load that it may
+    be."""
+    window = make("roughness-window", E, 1e10, 0.025, 1e-9, 0.1, 1e-6, share)
+    smallest = float(window.at_radius([R]).smallest[0])
+    summits = make("statistical-meniscus", E, 0.05 / (R * smallest), R, smallest, 0.025, 1e-9)
+    return apart(summits.at_pressure(0.1 / 1e-6).meniscus_pressure / 1e5, share)
+
+
+def caps_at_yield(_: float) -> float:
+    """Mean pressure of Hertz under a cap over that of first yield, for caps at the least number."""
+    caps = make("designed-caps", E, 1e10, 0.05, 0.025, 2e-9, 1.0)
+    least = caps.at_radius([R]).least
+    each = float(0.05 / least[0] + caps.of_count([R], [1.0]).meniscus_force[0])
+    return apart(make("hertz", E, R).at_load(each).mean_pressure, 0.382 * 1e10)
+
+
 def grown_menisci(hamaker: float) -> float:
     """Meniscus force long after contact, for films that are held ever more weakly."""
     numbers = (E, ETA, R, SIGMA, 0.025, 1e-9)
@@ -235,6 +252,24 @@ FIELDS_AND_FILMS: tuple[Agreement, ...] = (
         1e-6,
         "the meniscus force of the summits in the film, at most 2πRγ(1 + cos θ)η = 13 Pa of which 2 % reach "
         "it, over 1e5 Pa",
+    ),
+    Agreement(
+        "roughness-window",
+        "statistical-meniscus",
+        "at the smallest roughness",
+        window_of_share,
+        (0.1, 0.3, 1.0),
+        1e-9,
+        "a root of the same balance, to 1e-14 of the logarithm of the roughness",
+    ),
+    Agreement(
+        "designed-caps",
+        "hertz",
+        "least number of caps",
+        caps_at_yield,
+        (),
+        ROUNDING,
+        "caps are Hertz contacts at first yield",
     ),
     Agreement(
         "kinetic-meniscus",

@@ -153,6 +153,7 @@ from .wear.laws import ArchardWear, DissipatedEnergyWear, WornComposite, wear_co
 from .wear.pins import PinOnDisk, WornCap, track_section
 from .wear.running_in import WearingCoatedWave, WearingPunch, WearingWave, punch_rates
 from .wear.spheres import WearingCoatedSphere, WearingCylinder, WearingSphere
+from .wet.design import DesignedCaps, RoughnessWindow
 from .wet.meniscus import MeniscusGrowth
 from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
 from .wet.summits import GrowingMenisci, KineticMeniscus, StatisticalMeniscus, WetSummits
@@ -193,6 +194,7 @@ __all__ = [
     "CylinderInHole",
     "CylinderShakedown",
     "CylinderYield",
+    "DesignedCaps",
     "DiscreteSummits",
     "DissipatedEnergyWear",
     "DropletMeniscus",
@@ -291,6 +293,7 @@ __all__ = [
     "Prediction",
     "ProfilePlasticityIndex",
     "RectangularSource",
+    "RoughnessWindow",
     "RubberFriction",
     "SaddleThroat",
     "SampledPeaks",

@@ -70,6 +70,7 @@ from .wear.laws import ArchardWear, DissipatedEnergyWear, WornComposite
 from .wear.pins import PinOnDisk, WornCap
 from .wear.running_in import WearingCoatedWave, WearingPunch, WearingWave
 from .wear.spheres import WearingCoatedSphere, WearingCylinder, WearingSphere
+from .wet.design import DesignedCaps, RoughnessWindow
 from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
 from .wet.summits import GrowingMenisci, WetSummits
 
@@ -161,7 +162,15 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
         "Statistics of surfaces": (NayakSummits, SampledPeaks),
         "Stickiness": (PastewkaRobbins, PerssonTosatti),
         "Plasticity and hardness": (PlasticityIndex, ProfilePlasticityIndex, LeastArea, EffectiveHardness, OliverPharr),
-        "Menisci": (WetSummits, GrowingMenisci, DropletMeniscus, FilmMeniscus, VapourMeniscus),
+        "Menisci": (
+            WetSummits,
+            GrowingMenisci,
+            DropletMeniscus,
+            FilmMeniscus,
+            VapourMeniscus,
+            RoughnessWindow,
+            DesignedCaps,
+        ),
         "Conductance": (PlasticJoint, ElasticJoint, MeanGapJoint, HolmSpot, SpotCluster),
         "Frictional heating": (MovingHeatSource, JaegerBand, TianKennedy, BlokFlash),
         "Sealing": (
