@@ -3,6 +3,7 @@ from .physics.wear.history import WearHistory, WearState
 from .physics.wear.law import Sides, WearLaw, archard, dissipated_energy, of_layers
 from .physics.wear.march import WearSteps, worn
 from .physics.wear.rolled import RollingWear, rolled
+from .physics.wear.stresses import WornStresses
 from .physics.wear.third_body import CompressedLayer, Debris, ThirdBody
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "WearLaw",
     "WearState",
     "WearSteps",
+    "WornStresses",
     "archard",
     "dissipated_energy",
     "fretted",

@@ -359,7 +359,8 @@ def test_the_examples_of_wear(capsys):
     assert last.max_pressure < 0.5 * first.max_pressure
     assert "bare after" in capsys.readouterr().out
     exec(compile(of_stresses, page.name, "exec"), names)  # noqa: S102
-    factors = [float(line.split()[4]) for line in capsys.readouterr().out.splitlines()]
+    told = [line for line in capsys.readouterr().out.splitlines() if "yields at" in line]
+    factors = [float(line.split()[4]) for line in told]
     assert factors == sorted(factors), "it bears more as it wears"
 
 

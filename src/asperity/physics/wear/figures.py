@@ -15,7 +15,22 @@ from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
 from ...plots.animation import save_frames
 from ...plots.maps import Field, Kinds, Look, map_of
-from ...plots.picture import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, VERMILLION, Plot, Scale, legend_above, scale, style
+from ...plots.picture import (
+    BLACK,
+    BLUE,
+    GREEN,
+    NO_CONTACT,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+    Plot,
+    Scale,
+    legend_above,
+    literal,
+    scale,
+    style,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -179,6 +194,31 @@ def plot_bearing(shown: WearPicture, ax: Axes) -> Axes:
     return legend_above(ax)
 
 
+LAYER_COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK)
+"""Colours of layers from the surface down."""
+
+
+def plot_worn_stresses(shown: WearPicture, ax: Axes) -> Axes:
+    """Draw on ``ax`` the largest stress of each layer over its yield stress along the way; where no
+    yield stress is known, the von Mises stress."""
+    layers = [literal(str(name)) for name in np.atleast_1d(shown.values["wear_layer"])]
+    used = shown.array("course_utilisation").reshape(-1, len(layers))
+    known = bool(np.isfinite(used).any())
+    columns = used if known else shown.array("course_von_mises").reshape(-1, len(layers))
+    at = np.flatnonzero(np.isfinite(shown.array("course_coating")))
+    in_way, label = shown.along(shown.way)
+    unit = scale(columns, "1" if known else "Pa")
+    for number, (name, column) in enumerate(zip(layers, unit(columns[at]).T, strict=True)):
+        if np.isfinite(column).any():
+            colour = LAYER_COLOURS[number % len(LAYER_COLOURS)]
+            ax.plot(in_way(shown.way[at]), column, color=colour, marker=".", label=name)
+    if known:
+        ax.axhline(1.0, color=BLACK, linestyle="--", linewidth=0.8, label="yield stress")
+    ylabel = "largest stress / yield stress" if known else f"largest von Mises stress ({unit.symbol})"
+    ax.set(xlabel=label, ylabel=ylabel, xlim=(0.0, float(in_way(shown.way[-1]))), yscale="log")
+    return legend_above(ax, columns=3)
+
+
 WORN_PLOT = map_of(
     "worn_depth",
     "Worn depth",
@@ -231,6 +271,13 @@ BEARING_PLOT = Plot(
     "Bearing curve before and after",
     "Share of the composite surface that is higher than a height, from the mean plane before wear.",
     plot_bearing,
+)
+STRESS_PLOT = Plot(
+    "wear_stresses",
+    "Stresses as it wears",
+    "Largest stress of each layer over its yield stress, or the stress where that is not known, with what is left of "
+    "the coating.",
+    plot_worn_stresses,
 )
 
 

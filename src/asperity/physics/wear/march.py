@@ -24,6 +24,7 @@ from .geometry import followed, unevenness, worn_problem
 from .history import QUANTITIES, WearHistory, WearState
 from .law import Sides, WearLaw
 from .losses import Doses, Losses
+from .sections import Sections
 from .stage import Stage, Stretch, implicit_stage
 from .third_body import ThirdBody
 
@@ -176,7 +177,8 @@ def worn(
     state
         Where an earlier history of the same problem ended, to go on from.
     until_bare
-        Whether to end with the step in which the first point is without its layers.
+        Whether to end with the step in which the first point is without its layers. As that end is
+        not known before, contacts spread evenly over what was slid are kept, too.
     on_failure
         ``"raise"`` a ConvergenceError holding the history so far, or ``"return"`` it with its
         status.
@@ -285,8 +287,9 @@ class March:
         """History up to all ``marks`` (m)."""
         at, number, taken, ended = self.begun(state), self.steps.number, 0, False
         values: dict[str, list[float]] = {item.name: [] for item in QUANTITIES}
-        kept = [(at.state.distance, at.result)]
+        kept, between = [(at.state.distance, at.result)], Sections()
         self.record(values, at)
+        between.add(*kept[0])
         for mark in marks:
             equal = None if number is None else (mark - at.state.distance) / number
             while not ended and at.status.converged and mark - at.state.distance > _ROUNDING * mark:
@@ -295,11 +298,13 @@ class March:
                     break
                 at, taken = self.advanced(at, mark, equal), taken + 1
                 self.record(values, at)
-                ended = until_bare and math.isfinite(at.state.breakthrough)
+                if until_bare:
+                    between.add(at.state.distance, at.result)
+                    ended = math.isfinite(at.state.breakthrough)
             kept.append((at.state.distance, at.result))
             if ended or not at.status.converged:
                 break
-        return self.history(values, at, kept)
+        return self.history(values, at, between.with_marks(kept))
 
     def advanced(self, at: At, mark: float, equal: float | None) -> At:
         """After one step; one whose error is too large is repeated with a smaller length."""

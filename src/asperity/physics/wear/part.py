@@ -15,9 +15,11 @@ from ...core.settings import Settings, setting
 from ...core.values import Choice, Count, Length, Number, Pressure, StepOfPath, WearCoefficient, Whole
 from ...parts.part import Part
 from ..friction.part import friction_law
+from ..stress.part import stress_request
 
 if TYPE_CHECKING:
     from ..friction.law import FrictionLaw
+    from ..stress.survey import StressRequest
 
 WORDS = {"known": "known", "body": "body", "counter_body": "counter body", "both": "both"}
 
@@ -147,12 +149,13 @@ class WearSettings(Settings):
 @dataclass(frozen=True)
 class Wears:
     """What is asked of wear, the law of friction, its coefficient (0 for none) and its direction in
-    rad."""
+    rad, and the stresses that are asked for as it wears."""
 
     settings: WearSettings
     friction: FrictionLaw | None
     coefficient: float
     direction: float
+    stresses: StressRequest | None = None
 
     @property
     def fretting(self) -> bool:
@@ -161,6 +164,47 @@ class Wears:
 
 
 _GRID = ("x", "y")
+STEP, STATE, POINT, LAYER = "wear_step", "wear_state", "section_point", "wear_layer"
+"""Axes of the steps of wear, of the states whose sections are kept, along these, and of layers."""
+
+STRESS_SCALARS = (
+    *(
+        Quantity(f"wear_{name}_{when}", unit, f"{label} {'before' if when == 'first' else 'after'} wear")
+        for name, unit, label in (
+            ("max_von_mises", "Pa", "largest von Mises stress"),
+            ("max_tension", "Pa", "largest tension (σ₁)"),
+            ("utilisation", "1", "largest stress / yield stress"),
+            ("yield_load_factor", "1", "factor on the stresses at yield"),
+        )
+        for when in ("first", "last")
+    ),
+    Quantity("wear_utilisation_largest", "1", "largest stress / yield stress along the way"),
+    Quantity("wear_yield_load_factor_least", "1", "least factor on the stresses at yield along the way"),
+    Quantity("wear_yield_begins", "m", "distance after which a layer first yields"),
+    Quantity("wear_yield_begins_cycles", "1", "cycles after which a layer first yields"),
+    Quantity("wear_yield_ends", "m", "distance after which nothing yields any more"),
+    Quantity("wear_yield_ends_cycles", "1", "cycles after which nothing yields any more"),
+)
+"""Numbers of the stresses as it wears, where these are asked for."""
+
+STRESS_COLUMNS = (
+    Quantity(LAYER, "", "layer, from the surface down", (LAYER,)),
+    Quantity("course_coating", "m", "thickness of the layers with which stresses are computed", (STEP,)),
+    Quantity("course_yield_load_factor", "1", "factor on the stresses at yield", (STEP,)),
+    *(
+        Quantity(f"course_{name}", unit, label, (STEP, LAYER))
+        for name, unit, label in (
+            ("von_mises", "Pa", "largest von Mises stress"),
+            ("tension", "Pa", "largest tension (σ₁)"),
+            ("utilisation", "1", "largest stress / yield stress"),
+            ("stress_x", "m", "x of the largest stress"),
+            ("stress_y", "m", "y of the largest stress"),
+            ("stress_depth", "m", "depth of the largest stress below the worn surface"),
+        )
+    ),
+)
+"""The same after steps, NaN after those at which stresses are not computed."""
+
 SCALARS = (
     Quantity("wear_distance", "m", "distance slid"),
     Quantity("wear_cycles", "1", "cycles of fretting"),
@@ -194,6 +238,7 @@ SCALARS = (
     Quantity("wear_unevenness", "1", "variation of the thickness that is left of the coating"),
     Quantity("wear_compliance_error", "1", "error of the compliance by this variation"),
     Quantity("wear_steps", "1", "steps of wear"),
+    *STRESS_SCALARS,
 )
 """Numbers of a contact that wears; NaN where there is no such thing."""
 
@@ -205,9 +250,6 @@ FIELDS = (
     Quantity("worn_bare", "1", "whether a coating is worn through there", _GRID),
 )
 """Fields of a contact that wears."""
-
-STEP, STATE, POINT = "wear_step", "wear_state", "section_point"
-"""Axes of the steps of wear, of the states whose sections are kept, and along these."""
 
 SECTION = (
     Quantity("section_way", "m", "distance slid at a section; of fretting the cycles", (STATE,)),
@@ -241,7 +283,7 @@ class Wear(Part):
         from .history import QUANTITIES
 
         course = (replace(item, name=f"course_{item.name}", dims=(STEP,)) for item in QUANTITIES)
-        return (*SCALARS, *FIELDS, *course, *SECTION)
+        return (*SCALARS, *FIELDS, *course, *STRESS_COLUMNS, *SECTION)
 
     def asked(self, document: Any, folder: Path) -> Wears:
         """The settings with the friction of the table [friction]."""
@@ -264,4 +306,6 @@ class Wear(Part):
                 subject="friction.coefficient",
             )
         law = friction_law(friction, sheared=fretting) if plain and coefficient else None
-        return Wears(ask, law, coefficient, 0.0 if friction is None else float(friction.direction))
+        stress = getattr(document, "stress", None)
+        request = None if stress is None else stress_request(stress, friction)
+        return Wears(ask, law, coefficient, 0.0 if friction is None else float(friction.direction), request)

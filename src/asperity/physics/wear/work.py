@@ -20,16 +20,27 @@ from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic
 from ...solids.layers import Body, Layered, materials_of
 from ...surfaces.characterise.heights import core, material_ratio_curve
-from .figures import BARE_PLOT, BEARING_PLOT, COURSE_PLOT, DEPTH_PLOT, SECTION_PLOTS, WORN_PLOT, WearPicture
+from .figures import (
+    BARE_PLOT,
+    BEARING_PLOT,
+    COURSE_PLOT,
+    DEPTH_PLOT,
+    SECTION_PLOTS,
+    STRESS_PLOT,
+    WORN_PLOT,
+    WearPicture,
+)
 from .fretting import fretted
 from .history import WearHistory
 from .law import Sides, WearLaw, of_layers
 from .march import WearSteps, check, worn
 from .part import SCALARS, Wears
 from .third_body import Debris
+from .work_stresses import EVEN, stress_rows, stress_table, stress_values, yielding_text
 
 KEPT_WAYS = (0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0)
-"""Shares of the way at which the section is kept, beside that at the start."""
+"""Shares of the way at which the section is kept, beside that at the start, where its end is known
+before."""
 
 ROWS = 9
 """Rows of the table of the course."""
@@ -59,6 +70,7 @@ class WearWork(WithFacts):
         across = _across(sides, solved.problem.grid.shape)
         values: dict[str, Any] = {**_numbers(history, allowed), **_fields(history, sides)}
         values |= _section(history, across=across)
+        values |= stress_values(ask, solved, history)
         values |= {f"course_{name}": column for name, column in history.values.items()}
         facts = {
             "where": reached.where,
@@ -71,6 +83,7 @@ class WearWork(WithFacts):
             "thickness": [law.thickness for law in sides.laws if law.thickness > 0.0],
             "allowed": allowed,
             "across": across,
+            "criterion": "" if ask.stresses is None else ask.stresses.criterion.name,
             "stopped": table.until_bare and math.isfinite(history.breakthrough),
         }
         keys = tuple(dict.fromkeys((*self.citation_keys, *sides.citation_keys)))
@@ -82,6 +95,7 @@ class WearWork(WithFacts):
         plots = [WORN_PLOT] if min(solved.problem.grid.shape) > 1 else []
         plots += [BARE_PLOT] if shown.array("worn_bare").any() and plots else []
         plots += [*SECTION_PLOTS, DEPTH_PLOT, COURSE_PLOT, BEARING_PLOT]
+        plots += [STRESS_PLOT] if "wear_layer" in found.values else []
         return figures_by(plots, shown)
 
     def words(self, found: Found, solved: Solved) -> Words:
@@ -111,11 +125,16 @@ class WearWork(WithFacts):
             value = float(values.get(item.name, math.nan))
             if math.isfinite(value) and not _idle(item.name, facts):
                 rows.append((item.label, value_text(item, value)))
+        rows += stress_rows(values, facts)
         holds, alarming = _holds(values, facts)
+        yielding, yields = yielding_text(values, facts)
         headline = [("worn volume", show(volume, "m**3", 3)), ("largest worn depth", show(depth, "m", 3))]
-        tables = (("Course of the wear", _course_table(values, facts)),)
-        remarks = (REMARK,) if facts["debris"] else (REMARK, GONE)
-        return Words(sentence, headline, rows, tables, remarks, alarming, holds)
+        stressed = stress_table(values, facts)
+        tables = [("Course of the wear", _course_table(values, facts))]
+        tables += [("Stresses and yielding as it wears", stressed)] if stressed.cells else []
+        remarks = (REMARK, *(() if facts["debris"] else (GONE,)), *((EVEN,) if stressed.cells else ()))
+        holds = " ".join(text for text in (holds, yielding) if text)
+        return Words(sentence, headline, rows, tuple(tables), remarks, alarming or yields, holds)
 
 
 # Who wears, and by which law.
@@ -191,9 +210,9 @@ def _worn(ask: Wears, solved: Solved, sides: Sides, control: Control, progress: 
     given: dict[str, Any] = {"order": table.order}
     if table.tolerance is not None:
         given["tolerance"] = float(table.tolerance)
-    shares: tuple[float, ...] = KEPT_WAYS
+    shares: tuple[float, ...] = (1.0,) if table.until_bare else KEPT_WAYS
     if table.steps is not None:
-        equal = max(number for number in range(1, len(KEPT_WAYS) + 1) if table.steps % number == 0)
+        equal = max(number for number in range(1, len(shares) + 1) if table.steps % number == 0)
         shares, given["number"] = tuple((n + 1) / equal for n in range(equal)), table.steps // equal
     options["steps"] = WearSteps(**given)
     if ask.fretting:
