@@ -68,7 +68,8 @@ class WearPicture:
     def along(self, way: RealArray) -> tuple[Scale, str]:
         """Scale and label of an axis of ``way``."""
         in_unit = scale(way, "1" if self.facts["fretting"] else "m")
-        return in_unit, "cycles" if self.facts["fretting"] else f"distance slid ({in_unit.symbol})"
+        motion = "rolled" if self.facts.get("rolls") else "slid"
+        return in_unit, "cycles" if self.facts["fretting"] else f"distance {motion} ({in_unit.symbol})"
 
     def at(self, name: str) -> float:
         """Way after which something is reached; NaN where it is not."""
@@ -146,7 +147,8 @@ def plot_depth(shown: WearPicture, ax: Axes) -> Axes:
     in_m = scale(np.append(depth, [value for value, _, _ in near]), "m")
     in_way, label = shown.along(way)
     ax.plot(in_way(way), in_m(depth), color=BLUE, label="largest")
-    ax.plot(in_way(way), in_m(mean), color=GREEN, label="mean of the nominal area")
+    if np.isfinite(float(shown.values["wear_mean_depth"])):
+        ax.plot(in_way(way), in_m(mean), color=GREEN, label="mean of the nominal area")
     for value, colour, name in near:
         ax.axhline(float(in_m(value)), color=colour, linestyle="--", linewidth=0.8, label=name)
     for name, colour in (("wear_breakthrough", VERMILLION), ("wear_life", ORANGE)):
@@ -237,7 +239,8 @@ SECTION_PLOTS = (
     Plot(
         "worn_profile",
         "Section as it wears",
-        "Heights along x, or across a track, through the point that is pressed most at first, after the ways above.",
+        "Heights along x, or across a track or wheel, through the point that is pressed most at first, after the ways "
+        "above.",
         plot_section_heights,
     ),
     Plot(

@@ -15,6 +15,7 @@ from ...core.settings import Settings, setting
 from ...core.values import Choice, Count, Length, Number, Pressure, StepOfPath, WearCoefficient, Whole
 from ...parts.part import Part
 from ..friction.part import friction_law
+from ..rolling.part import Rolling, Rolls
 from ..stress.part import stress_request
 
 if TYPE_CHECKING:
@@ -67,7 +68,9 @@ class WearSettings(Settings):
         "0 J/m^2", option="--wear-threshold-energy", help="Of friction, before a point wears by energy: 100kJ/m^2"
     )
     track_body: Length | None = setting(
-        None, option="--track-body", help="Length along x of the track that the body is, such as a disk: 60mm"
+        None,
+        option="--track-body",
+        help="Length along x of the track that the body is, such as a disk; of one that rolls all around: 60mm",
     )
     track_counter_body: Length | None = setting(
         None, option="--track-counter-body", help="The same of the counter body"
@@ -124,11 +127,6 @@ class WearSettings(Settings):
                 f".{sliding} must be left out for fretting, but is given; it is for sliding over a distance "
                 "({wear.distance=10m})."
             )
-        if self.track_body is not None and self.track_counter_body is not None:
-            raise InputError(
-                ".track_counter_body must be left out where the body is a track, but both are given: the other of "
-                "both is in contact all the time."
-            )
         if bool(self.debris) != (self.debris_modulus is not None):
             missing, other = ("debris", "debris_modulus") if not self.debris else ("debris_modulus", "debris")
             raise InputError(
@@ -149,13 +147,14 @@ class WearSettings(Settings):
 @dataclass(frozen=True)
 class Wears:
     """What is asked of wear, the law of friction, its coefficient (0 for none) and its direction in
-    rad, and the stresses that are asked for as it wears."""
+    rad, the stresses that are asked for as it wears, and how it rolls, if it does."""
 
     settings: WearSettings
     friction: FrictionLaw | None
     coefficient: float
     direction: float
     stresses: StressRequest | None = None
+    rolls: Rolls | None = None
 
     @property
     def fretting(self) -> bool:
@@ -206,7 +205,7 @@ STRESS_COLUMNS = (
 """The same after steps, NaN after those at which stresses are not computed."""
 
 SCALARS = (
-    Quantity("wear_distance", "m", "distance slid"),
+    Quantity("wear_distance", "m", "distance slid or rolled"),
     Quantity("wear_cycles", "1", "cycles of fretting"),
     Quantity("wear_volume", "m**3", "worn volume of both bodies"),
     Quantity("wear_body_volume", "m**3", "worn volume of the body"),
@@ -215,7 +214,7 @@ SCALARS = (
     Quantity("wear_body_depth", "m", "largest worn depth of the body"),
     Quantity("wear_counter_body_depth", "m", "largest worn depth of the counter body"),
     Quantity("wear_mean_depth", "m", "worn volume / nominal area"),
-    Quantity("wear_rate", "m**2/N", "worn volume / (force x distance slid)"),
+    Quantity("wear_rate", "m**2/N", "worn volume / (force x distance)"),
     Quantity("wear_breakthrough", "m", "distance after which a coating is first worn through"),
     Quantity("wear_breakthrough_cycles", "1", "cycles after which a coating is first worn through"),
     Quantity("wear_bare_fraction", "1", "area without coating / real contact area after wear"),
@@ -286,19 +285,20 @@ class Wear(Part):
         return (*SCALARS, *FIELDS, *course, *STRESS_COLUMNS, *SECTION)
 
     def asked(self, document: Any, folder: Path) -> Wears:
-        """The settings with the friction of the table [friction]."""
+        """The settings with the friction of the table [friction], and the motion of [rolling]."""
         ask: WearSettings = document.wear
         friction: Any = getattr(document, "friction", None)
         plain = friction is not None and friction.law == "coulomb"
         coefficient = float(friction.coefficient) if plain else 0.0
         fretting = ask.cycles is not None
-        for table in ("shear", "rolling"):
-            if getattr(document, table, None) is not None:
-                raise InputError(
-                    f"wear must be asked for without a table {table}, but is asked for beside it: what wears is moved "
-                    "by its own table, over a distance ({wear.distance}) or to and fro ({wear.shift}).",
-                    subject="wear",
-                )
+        if getattr(document, "shear", None) is not None:
+            raise InputError(
+                "wear must be asked for without a table shear, but is asked for beside it: what wears is moved by its "
+                "own table, over a distance ({wear.distance}) or to and fro ({wear.shift}).",
+                subject="wear",
+            )
+        rolls = Rolling().asked(document, folder) if getattr(document, "rolling", None) is not None else None
+        _require_motion(ask, rolls)
         if (fretting or ask.law == "energy") and not coefficient:
             why = "for fretting" if fretting else "for wear by energy"
             raise InputError(
@@ -306,6 +306,34 @@ class Wear(Part):
                 subject="friction.coefficient",
             )
         law = friction_law(friction, sheared=fretting) if plain and coefficient else None
-        stress = getattr(document, "stress", None)
+        stress = None if rolls is not None else getattr(document, "stress", None)
         request = None if stress is None else stress_request(stress, friction)
-        return Wears(ask, law, coefficient, 0.0 if friction is None else float(friction.direction), request)
+        return Wears(ask, law, coefficient, 0.0 if friction is None else float(friction.direction), request, rolls)
+
+
+NOT_ROLLING = ("cycles", "debris", "threshold_pressure")
+"""Keys that have no meaning where the contact rolls."""
+
+
+def _require_motion(ask: WearSettings, rolls: Rolls | None) -> None:
+    """Refuse keys that have no meaning in sliding, or in rolling where the contact ``rolls``."""
+    if rolls is None:
+        if ask.track_body is not None and ask.track_counter_body is not None:
+            raise InputError(
+                "wear.track_counter_body must be left out where the body is a track, but both are given: the other "
+                "of both is in contact all the time, unless they roll ({rolling.longitudinal})."
+            )
+        return
+    meaningless = next((key for key in NOT_ROLLING if getattr(ask, key)), "order" if ask.order == 2 else None)
+    if ask.step not in ("peak", "last"):
+        meaningless = "step"
+    if meaningless is not None:
+        raise InputError(
+            f"wear.{meaningless} must be left out where the contact rolls, but is given: it wears over a distance "
+            "({wear.distance}), under the last load."
+        )
+    if rolls.roughness is not None:
+        raise InputError(
+            "rolling.roughness_file must be left out where the contact wears as it rolls, but is given: a rough wheel "
+            "rolls unsteadily."
+        )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -35,6 +36,7 @@ from .history import WearHistory
 from .law import Sides, WearLaw, of_layers
 from .march import WearSteps, check, worn
 from .part import SCALARS, Wears
+from .rolling_course import worn_by_rolling
 from .third_body import Debris
 from .work_stresses import EVEN, stress_rows, stress_table, stress_values, yielding_text
 
@@ -53,7 +55,9 @@ class WearWork(WithFacts):
 
     def check(self, ask: Wears, problem: ContactProblem) -> None:
         """Refuse what cannot wear, and bodies none of which is known to."""
-        check(problem, MeanPressure(1.0), sides_of(ask, problem))
+        sides = check(problem, MeanPressure(1.0), sides_of(ask, problem))
+        if ask.rolls is not None:
+            _around(ask, sides)
 
     def course(self, ask: Wears, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """The same steps; refuses one that is not among them."""
@@ -62,19 +66,24 @@ class WearWork(WithFacts):
 
     def compute(self, ask: Wears, solved: Solved) -> Found:
         """Wear under the load that is asked for, from the surfaces as they are given."""
-        reached, table = solved.at(ask.settings.step), ask.settings
+        table = ask.settings
+        reached = solved.at(table.step if ask.rolls is None else "last")
         sides = sides_of(ask, solved.problem)
         with solved.stage("wear") as progress:
             history = _worn(ask, solved, sides, reached.result.control, progress)
         allowed = None if table.allowed_depth is None else float(table.allowed_depth)
-        across = _across(sides, solved.problem.grid.shape)
+        across = _across(ask, sides, solved.problem.grid.shape)
         values: dict[str, Any] = {**_numbers(history, allowed), **_fields(history, sides)}
         values |= _section(history, across=across)
         values |= stress_values(ask, solved, history)
+        beyond = ask.rolls is not None or sides.body_track is not None or sides.counter_track is not None
+        values |= {"wear_mean_depth": math.nan} if beyond else {}  # the volume is that of a whole track or wheel
         values |= {f"course_{name}": column for name, column in history.values.items()}
         facts = {
             "where": reached.where,
             "fretting": ask.fretting,
+            "rolls": ask.rolls is not None,
+            "around": [] if ask.rolls is None else list(_around(ask, sides).values()),
             "debris": float(table.debris or 0.0),
             "shift": None if table.shift is None else float(table.shift),
             "law": table.law,
@@ -119,6 +128,9 @@ class WearWork(WithFacts):
             ("law of wear", "dissipated energy" if facts["law"] == "energy" else "Archard"),
         ]
         rows += [("runs along a track", names[name]) for name in facts["tracks"]]
+        for name, around in zip(facts["wears"], facts.get("around", ()), strict=False):
+            passages = float(values["wear_distance"]) / around
+            rows.append((f"points of the {names[name]} pass", f"{passages:.4g} times, once every {show(around, 'm')}"))
         rows += [("moves to and fro by", show(facts["shift"], "m"))] if facts["fretting"] else []
         rows += [("debris that stays", percent(facts["debris"]))] if facts["debris"] else []
         for item in SCALARS:
@@ -178,8 +190,32 @@ def sides_of(ask: Wears, problem: ContactProblem) -> Sides:
                 f"wear.track_{name} must be left out where the {name.replace('_', ' ')} does not wear, but is given. "
                 f"Give its coefficient ({{wear.coefficient_{name}=1e-6mm^3/Nm}})."
             )
+    if ask.rolls is not None:
+        return Sides(laws["body"], laws["counter_body"])
     left = None if not table.debris else Debris(float(table.debris), float(table.debris_modulus or 0.0))
     return Sides(laws["body"], laws["counter_body"], tracks[0], tracks[1], left)
+
+
+def _around(ask: Wears, sides: Sides) -> dict[str, float]:
+    """Circumference in m of each body that wears as it rolls.
+
+    Raises
+    ------
+    InputError
+        If one is not known.
+    """
+    found = {}
+    for name, key in (("body", "body"), ("counter", "counter_body")):
+        if getattr(sides, name) is None:
+            continue
+        around = getattr(ask.settings, f"track_{key}")
+        if around is None:
+            raise InputError(
+                f"wear.track_{key} must be given where the {key.replace('_', ' ')} wears as it rolls, but is not: its "
+                f"points wear once in this length, the circumference of a wheel ({{wear.track_{key}=3m}})."
+            )
+        found[name] = float(around)
+    return found
 
 
 def _some_known(body: Body) -> bool:
@@ -221,6 +257,20 @@ def _worn(ask: Wears, solved: Solved, sides: Sides, control: Control, progress: 
         options |= {} if table.quarter is None else {"quarter": table.quarter}
         cycles = sorted({max(1, round(share * (table.cycles or 1))) for share in shares})
         return fretted(problem.with_physics(friction=ask.friction), control, shift, cycles, sides, **options)
+    if ask.rolls is not None:
+        around = _around(ask, sides)
+        return worn_by_rolling(
+            problem.with_physics(friction=ask.rolls.law),
+            control,
+            ask.rolls.creepage,
+            float(table.distance or 0.0),
+            sides,
+            (around.get("body", 1.0), around.get("counter", 1.0)),
+            direction=ask.rolls.settings.direction,  # type: ignore[arg-type]
+            steps=replace(options["steps"], number=table.steps),
+            until_bare=table.until_bare,
+            on_failure="return",
+        )
     marks = [share * float(table.distance or 0.0) for share in shares]
     return worn(problem, control, marks, sides, until_bare=table.until_bare, **options)
 
@@ -293,8 +343,11 @@ def _fields(history: WearHistory, sides: Sides) -> dict[str, Any]:
     }
 
 
-def _across(sides: Sides, shape: tuple[int, int]) -> bool:
-    """Whether the section is along y: across a track, and where there is one point along x."""
+def _across(ask: Wears, sides: Sides, shape: tuple[int, int]) -> bool:
+    """Whether the section is along y: across a track or the direction of rolling, and where there
+    is one point along x."""
+    if ask.rolls is not None:
+        return ask.rolls.settings.direction.endswith("x")
     return shape[0] == 1 or not (sides.body_track is None and sides.counter_track is None)
 
 
@@ -328,7 +381,8 @@ def way_text(values: Mapping[str, Any], facts: Mapping[str, Any]) -> str:
     """How far it has slid, or how many cycles it has fretted."""
     if facts["fretting"]:
         return f"{float(values['wear_cycles']):.4g} cycles of ±{show(facts['shift'], 'm', 3)}"
-    return f"{show(float(values['wear_distance']), 'm', 3)} of sliding"
+    motion = "rolling" if facts.get("rolls") else "sliding"
+    return f"{show(float(values['wear_distance']), 'm', 3)} of {motion}"
 
 
 def _after(values: Mapping[str, Any], facts: Mapping[str, Any], name: str) -> str:
