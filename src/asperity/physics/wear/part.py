@@ -36,15 +36,17 @@ SLIDING_ALONE = ("track_body", "track_counter_body", "until_bare")
 
 
 class WearSettings(Settings):
-    """Wear as one body slides over the other, or moves to and fro on it (fretting): the surfaces,
-    areas and pressures follow what is worn away.
+    """Wear as one body slides over the other, moves to and fro on it (fretting), or rolls on it with
+    the creepages of the table [rolling]: surfaces, areas and pressures follow what is worn away.
 
     Each body wears by the coefficients of the materials of its layers and base; one whose
     coefficients are not known does not, unless it is named. A coefficient given here is that of
     all materials of its body.
     """
 
-    distance: Length | None = setting(None, option="--wear-distance", help="Slid, with all points sliding: 10m")
+    distance: Length | None = setting(
+        None, option="--wear-distance", help="Slid, with all points sliding, or rolled: 10m"
+    )
     cycles: Count | None = setting(None, option="--wear-cycles", help="Of fretting, instead of a distance: 10000")
     shift: Length | None = setting(
         None, option="--wear-shift", help="Of fretting, to either side along the friction: 5um"

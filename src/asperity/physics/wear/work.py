@@ -133,10 +133,7 @@ class WearWork(WithFacts):
             rows.append((f"points of the {names[name]} pass", f"{passages:.4g} times, once every {show(around, 'm')}"))
         rows += [("moves to and fro by", show(facts["shift"], "m"))] if facts["fretting"] else []
         rows += [("debris that stays", percent(facts["debris"]))] if facts["debris"] else []
-        for item in SCALARS:
-            value = float(values.get(item.name, math.nan))
-            if math.isfinite(value) and not _idle(item.name, facts):
-                rows.append((item.label, value_text(item, value)))
+        rows += _number_rows(values, facts)
         rows += stress_rows(values, facts)
         holds, alarming = _holds(values, facts)
         yielding, yields = yielding_text(values, facts)
@@ -417,6 +414,21 @@ def _holds(values: Mapping[str, Any], facts: Mapping[str, Any]) -> tuple[str, bo
             else f"Stays within the allowed depth: {depth} of {allowed} are gone after {way_text(values, facts)}."
         )
     return " ".join(texts), alarming
+
+
+def _number_rows(values: Mapping[str, Any], facts: Mapping[str, Any]) -> Rows:
+    """``SCALARS`` that are known, those before and after wear in one row."""
+    rows: Rows = []
+    for item in SCALARS:
+        value = float(values.get(item.name, math.nan))
+        if not math.isfinite(value) or _idle(item.name, facts) or item.name.endswith("_last"):
+            continue
+        text = value_text(item, value)
+        if item.name.endswith("_first"):
+            last = float(values.get(item.name.replace("_first", "_last"), math.nan))
+            text = f"{text} → {value_text(item, last)}" if math.isfinite(last) else text
+        rows.append((item.label.replace(" before wear", ", before → after wear"), text))
+    return rows
 
 
 def _idle(name: str, facts: Mapping[str, Any]) -> bool:
