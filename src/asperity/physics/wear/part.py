@@ -36,8 +36,8 @@ SLIDING_ALONE = ("track_body", "track_counter_body", "until_bare")
 
 
 class WearSettings(Settings):
-    """Wear as one body slides over the other, moves to and fro on it (fretting), or rolls on it with
-    the creepages of the table [rolling]: surfaces, areas and pressures follow what is worn away.
+    """Wear as one body slides over the other, moves to and fro on it (fretting), or rolls with the
+    creepages of the table [rolling]: surfaces, areas and pressures follow what is worn away.
 
     Each body wears by the coefficients of the materials of its layers and base; one whose
     coefficients are not known does not, unless it is named. A coefficient given here is that of
