@@ -19,7 +19,9 @@ from asperity.core.arrays import RealArray
 from asperity.core.errors import InputError
 from asperity.physics.wear.sections import MOST, Sections
 from asperity.physics.wear.stresses import WornStresses
+from asperity.run.build import build
 from asperity.run.document import checked, dumps
+from asperity.run.execute import execute
 from asperity.run.stored import load_outcome, save_outcome
 from asperity.solids.strength import Strength
 from asperity.stresses import Tresca, depths_through, first_yield
@@ -227,6 +229,16 @@ def test_a_document_that_asks_for_stresses_has_them_along_the_way(tmp_path: Path
     stresses = python.stressed(0.2).stresses
     assert stresses is not None
     assert stresses["von_mises"][0] == pytest.approx(found["course_von_mises"][0], rel=1e-9)
+
+
+def test_stresses_are_computed_where_a_study_wants_them() -> None:
+    """Not for another number; and each number as in a whole run."""
+    case = build(checked(WEARING))
+    plain = execute(case, wanted=["wear_volume"], lines=False)
+    assert "wear_layer" not in plain.found["wear"].values
+    asked = execute(case, wanted=["wear_yield_ends"], lines=False)
+    whole = execute(case)
+    assert asked.values["wear_yield_ends"] == whole.values["wear_yield_ends"]
 
 
 def test_without_stresses_there_are_none() -> None:
