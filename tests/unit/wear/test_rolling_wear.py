@@ -178,6 +178,9 @@ def test_a_document_that_rolls_wears_as_python_says(tmp_path: Path) -> None:
     assert values["wear_steps"] == len(python["distance"]) - 1
     assert values["wear_balance"] < 1e-12
     assert found["section_heights"].shape[1] == 24
+    assert found["course_rolling_heat"][0] == pytest.approx(values["rolling_heat"], rel=1e-9)
+    assert found["course_tangential_force"][0] == pytest.approx(abs(values["rolling_longitudinal_force"]), rel=1e-9)
+    assert found["course_slip_area_fraction"][0] == pytest.approx(values["rolling_slip_area_fraction"])
     assert np.isnan(values["wear_mean_depth"])
     first = {figure.name for figure in outcome.figures["wear"]}
     assert first >= {"worn_profile", "worn_section_pressure", "wear_life", "wear_course"}
@@ -188,7 +191,8 @@ def test_a_document_that_rolls_wears_as_python_says(tmp_path: Path) -> None:
     asp.save(python, tmp_path / "history.nc")
     stored = asp.load(tmp_path / "history.nc")
     np.testing.assert_array_equal(stored.body_depth, python.body_depth)
-    np.testing.assert_array_equal(stored["max_pressure"], python["max_pressure"])
+    for name in ("max_pressure", "tangential_force"):
+        np.testing.assert_array_equal(stored[name], python[name])
 
 
 @pytest.mark.parametrize(

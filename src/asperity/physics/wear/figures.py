@@ -159,17 +159,18 @@ def plot_depth(shown: WearPicture, ax: Axes) -> Axes:
 
 
 def plot_course(shown: WearPicture, ax: Axes) -> Axes:
-    """Draw on ``ax`` real area, largest pressure and rms height along the way, over those at its
-    start."""
+    """Draw on ``ax`` real area, largest pressure and rms height along the way, and the force along
+    the surface where it rolls, over those at its start."""
     in_way, label = shown.along(shown.way)
     low, high = 0.1, 10.0
     for name, colour, text in (
         ("course_area_fraction", BLUE, "real contact area"),
         ("course_max_pressure", VERMILLION, "maximum pressure"),
         ("course_rms_height", GREEN, "rms height"),
+        ("course_tangential_force", ORANGE, "tangential force"),
     ):
         values = shown.array(name)
-        if values[0] > 0.0:
+        if values.size and values[0] > 0.0:
             share = values / values[0]
             low, high = min(low, 0.7 * float(share.min())), max(high, 1.4 * float(share.max()))
             ax.plot(in_way(shown.way), share, color=colour, label=text)
@@ -266,7 +267,8 @@ DEPTH_PLOT = Plot(
 COURSE_PLOT = Plot(
     "wear_course",
     "Contact along the way",
-    "Real contact area, maximum pressure and rms height over those at the start.",
+    "Real contact area, maximum pressure, rms height, and where it rolls the force along the surface, over those at "
+    "the start.",
     plot_course,
 )
 BEARING_PLOT = Plot(

@@ -48,6 +48,13 @@ QUANTITIES = (
 """What is known after every step of the sliding distance; ``cycles`` is NaN under gross sliding,
 the ``distance`` of fretting the sum of what the mean point slides."""
 
+ROLLING = (
+    Quantity("tangential_force", "N", "force along the surface as it rolls", ("course",)),
+    Quantity("slip_area_fraction", "1", "area that slips as it rolls / real contact area (pixels)", ("course",)),
+    Quantity("rolling_heat", "J/m", "heat per distance rolled", ("course",)),
+)
+"""What is known besides where it rolls."""
+
 
 @dataclass(frozen=True, eq=False)
 class WearState:
@@ -101,7 +108,8 @@ class WearHistory:
     last
         Contact at the end; its problem has the worn surfaces.
     values
-        Arrays (n,) by the names in ``QUANTITIES``, the first at the start.
+        Arrays (n,) by the names in ``QUANTITIES``, and in ``ROLLING`` where it rolls, the first at
+        the start.
     body_depth, counter_depth
         Worn depths (nx, ny) in m since the virgin surfaces.
     breakthrough
@@ -132,7 +140,7 @@ class WearHistory:
     """
 
     last: ContactResult = given()
-    values: Mapping[str, RealArray] = measured("", "wear along the course", "course", columns=QUANTITIES)
+    values: Mapping[str, RealArray] = measured("", "wear along the course", "course", columns=(*QUANTITIES, *ROLLING))
     body_depth: RealArray = measured("m", "worn depth of the body", "x", "y")
     counter_depth: RealArray = measured("m", "worn depth of the counter body", "x", "y")
     breakthrough: float = measured("", "distance (m) or cycles to the first point without layers")

@@ -281,9 +281,9 @@ class Wear(Part):
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
         """Scalars, fields, columns of all steps, and sections."""
-        from .history import QUANTITIES
+        from .history import QUANTITIES, ROLLING
 
-        course = (replace(item, name=f"course_{item.name}", dims=(STEP,)) for item in QUANTITIES)
+        course = (replace(item, name=f"course_{item.name}", dims=(STEP,)) for item in (*QUANTITIES, *ROLLING))
         return (*SCALARS, *FIELDS, *course, *STRESS_COLUMNS, *SECTION)
 
     def asked(self, document: Any, folder: Path) -> Wears:

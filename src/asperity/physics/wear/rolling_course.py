@@ -16,7 +16,7 @@ from ...core.errors import ConvergenceError, InputError
 from ...core.status import Status
 from ..rolling.rolling import DIRECTIONS, Creepage, Rolling, RollingContact, roll
 from .geometry import Thinned, followed, unevenness, worn_problem
-from .history import QUANTITIES, WearHistory
+from .history import QUANTITIES, ROLLING, WearHistory
 from .law import Sides, WearLaw
 from .losses import Doses
 from .march import REPEATED, WearSteps, check, too_many
@@ -164,7 +164,7 @@ class RollingCourse:
         across = self.problem.grid.shape[self.side]
         virgin = Doses(*(None if law is None else np.zeros(across) for law in self.laws))
         at, status = Rolled(0.0, virgin, self.rolling(self.problem, None)), None
-        values: dict[str, list[float]] = {item.name: [] for item in QUANTITIES}
+        values: dict[str, list[float]] = {item.name: [] for item in (*QUANTITIES, *ROLLING)}
         self.record(values, at)
         kept, count = Sections(), 0
         kept.add(0.0, at.contact.normal)
@@ -296,6 +296,9 @@ class RollingCourse:
             "bare_fraction": int(np.count_nonzero(bare & normal.contact)) / pixels if pixels else 0.0,
             "plastic_area_fraction": normal.plastic_area_fraction,
             "misplaced": at.misplaced / sum(volumes) if sum(volumes) > 0.0 else 0.0,
+            "tangential_force": math.hypot(at.contact.force_x, at.contact.force_y),
+            "slip_area_fraction": at.contact.slip_area_fraction,
+            "rolling_heat": at.contact.dissipated,
         }
         for name, value in now.items():
             values[name].append(value)

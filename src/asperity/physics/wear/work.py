@@ -444,13 +444,18 @@ def _idle(name: str, facts: Mapping[str, Any]) -> bool:
 def _course_table(values: Mapping[str, Any], facts: Mapping[str, Any]) -> Table:
     """Some of the states, from the first contact on."""
     way = "cycles" if facts["fretting"] else "distance"
-    names = (way, "worn_volume", "max_depth", "area_fraction", "max_pressure", "bare_fraction")
+    names: tuple[str, ...] = (way, "worn_volume", "max_depth", "area_fraction", "max_pressure", "bare_fraction")
+    rolls = bool(facts.get("rolls"))
+    names = (*names, "tangential_force", "rolling_heat") if rolls else names
     columns = [np.atleast_1d(np.asarray(values[f"course_{name}"], float)) for name in names]
     cells = []
     for at in np.unique(np.linspace(0, len(columns[0]) - 1, ROWS).round().astype(int)):
-        along, volume, depth, area, peak, bare = (float(column[at]) for column in columns)
+        along, volume, depth, area, peak, bare, *rolling = (float(column[at]) for column in columns)
+        row: tuple[str, ...]
         first = f"{along:.4g}" if facts["fretting"] else show(along, "m", 3)
         row = (first, show(volume, "m**3", 3), show(depth, "m", 3), percent(area), show(peak, "Pa", 3))
-        cells.append((*row, percent(bare)) if facts["thickness"] else row)
-    head = (way.capitalize(), "Worn volume", "Largest depth", "Real area", "Maximum pressure")
-    return Table((*head, "Of it without coating") if facts["thickness"] else head, tuple(cells))
+        row = (*row, percent(bare)) if facts["thickness"] else row
+        cells.append((*row, *(show(value, unit, 3) for value, unit in zip(rolling, ("N", "J/m"), strict=False))))
+    head: tuple[str, ...] = (way.capitalize(), "Worn volume", "Largest depth", "Real area", "Maximum pressure")
+    head = (*head, "Of it without coating") if facts["thickness"] else head
+    return Table((*head, "Tangential force", "Heat") if rolls else head, tuple(cells))
