@@ -162,7 +162,7 @@ def plot_course(shown: WearPicture, ax: Axes) -> Axes:
     """Draw on ``ax`` real area, largest pressure and rms height along the way, and the force along
     the surface where it rolls, over those at its start."""
     in_way, label = shown.along(shown.way)
-    low, high = 0.1, 10.0
+    low, high = 1.0, 1.0
     for name, colour, text in (
         ("course_area_fraction", BLUE, "real contact area"),
         ("course_max_pressure", VERMILLION, "maximum pressure"),
@@ -172,11 +172,15 @@ def plot_course(shown: WearPicture, ax: Axes) -> Axes:
         values = shown.array(name)
         if values.size and values[0] > 0.0:
             share = values / values[0]
-            low, high = min(low, 0.7 * float(share.min())), max(high, 1.4 * float(share.max()))
+            low, high = min(low, float(share.min())), max(high, float(share.max()))
             ax.plot(in_way(shown.way), share, color=colour, label=text)
     ax.axhline(1.0, color=BLACK, linewidth=0.5)
     ax.set(xlabel=label, ylabel="over that at the start", xlim=(0.0, float(in_way(shown.way[-1]))))
-    ax.set(yscale="log", ylim=(low, high))
+    if low > 0.5 and high < 2.0:
+        room = max(0.1 * (high - low), 1e-3)
+        ax.set_ylim(low - room, high + room)
+    else:
+        ax.set(yscale="log", ylim=(min(0.1, 0.7 * low), max(10.0, 1.4 * high)))
     return legend_above(ax, columns=3)
 
 
