@@ -170,6 +170,14 @@ def leak(outcome: Any) -> np.ndarray:
     return pixels
 
 
+def worn(outcome: Any) -> np.ndarray:
+    """How deep the summits have worn."""
+    depth = fitted(outcome.found["wear"].values["worn_body"])
+    pixels = relief(outcome.result.problem.profile())
+    share = np.clip(depth / (0.05 * depth.max()), 0.0, 1.0)[..., None]
+    return np.asarray((1.0 - share) * pixels + share * coloured(depth, "YlOrBr", 0.0, 1.1 * depth.max()), np.uint8)
+
+
 DRAWN: Mapping[str, Callable[[Any], np.ndarray]] = MappingProxyType(
     {
         "coated-disk": lambda outcome: below(outcome, 0.6),
@@ -180,6 +188,7 @@ DRAWN: Mapping[str, Callable[[Any], np.ndarray]] = MappingProxyType(
         "fretting": sticking,
         "connector": current,
         "metal-seal": leak,
+        "running-in": worn,
     }
 )
 """What of a run the picture of each example shows."""

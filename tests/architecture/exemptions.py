@@ -98,6 +98,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "weierstrass_mandelbrot": "the constants of the published formula, each a keyword",
         "weierstrass_mandelbrot_profile": "the constants of the published formula, each a keyword",
         "worn": "independent keyword-only choices of the user, each with a default",
+        "worn_by_rolling": "what wears, rolls and how far, and independent keyword-only choices with defaults",
         "fretted": "independent keyword-only choices of the user, each with a default",
     },
 }

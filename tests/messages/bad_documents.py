@@ -213,7 +213,6 @@ DOCUMENTS: tuple[dict[str, Any], ...] = (
     {"body": "nickel", "wear": {"distance": "1 m", "wears": "all"}},
     {"body": "nickel", "wear": {"distance": "1 m", "law": "energy", "threshold_pressure": "1 MPa"}},
     {"body": "nickel", "wear": {"distance": "1 m", "threshold_energy": "1 J/m^2"}},
-    {"body": "nickel", "wear": {"distance": "1 m", "track_body": "1 m", "track_counter_body": "1 m"}},
     {"body": "nickel", "wear": {"distance": "1 m", "tolerance": 1}},
     {"body": "nickel", "wear": {"distance": "1 m", "debris": "20 %"}},
     {"body": "nickel", "wear": {"distance": "1 m", "debris": 1}},

@@ -25,6 +25,9 @@ SEAL: dict[str, Any] = {
 WEARS = {key: value for key, value in SEAL.items() if key != "sealing"} | {"wear": {"distance": "1 m"}}
 """A contact that is to wear, but has no coefficient."""
 
+ROLLS = WEARS | {"friction": {"coefficient": 0.3}, "rolling": {"longitudinal": 0.01}}
+"""The same, as it rolls."""
+
 FLOWS = ("--body", "E=200GPa,nu=0.3,Y=400MPa")
 RUBBER = ("--body", "E=1GPa+1GPa@1s,nu=0.4,name=rubber")
 ON_RUBBER = ("--body", "rigid", "--counter", RUBBER[1], *LOAD, "--sliding-speed", "1mm/s")
@@ -694,6 +697,27 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "wear in a document beyond the load": lambda: asp.run(
         WEARS | {"wear": {"distance": "1 m", "coefficient_body": "1e-6 mm^3/Nm", "step": 3}}
     ),
+    "wear in a document of two tracks": lambda: asp.run(
+        WEARS | {"wear": {"distance": "1 m", "track_body": "1 m", "track_counter_body": "1 m"}}
+    ),
+    "wear in a document that rolls once around what is not known": lambda: asp.run(
+        ROLLS | {"wear": {"distance": "1 m", "coefficient_body": "1e-6 mm^3/Nm"}}
+    ),
+    "wear in a document that rolls and frets": lambda: asp.run(ROLLS | {"wear": {"cycles": 3, "shift": "1 um"}}),
+    "wear in a document of a rough wheel": lambda: asp.run(
+        ROLLS | {"rolling": {"longitudinal": 0.01, "roughness_file": "rough.nc"}}
+    ),
+    "wear by rolling along a track": lambda: asp.wear.worn_by_rolling(
+        _hot_joint(),
+        asp.MeanPressure(1e7),
+        asp.rolling.Creepage(0.01),
+        1.0,
+        asp.wear.Sides(asp.wear.archard(1e-15), body_track=1.0),
+        1.0,
+    ),
+    "stresses of a friction below zero as it wears": lambda: asp.wear.worn(
+        _hot_joint(), asp.MeanPressure(1e7), 1.0, asp.wear.archard(1e-15)
+    ).stressed(-0.1),
     "an animation of wear that is none": lambda: asp.report.save_wear_animation(
         asp.run({key: value for key, value in WEARS.items() if key != "wear"}), "none.gif"
     ),

@@ -115,6 +115,15 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
     | {"body": "mild steel", "heating": {"speed": "300 m/s", "friction": 0.5, "moving": "body"}},
     "a coating that is worn through": WEARS | {"wear": {"distance": "4 m", "until_bare": True}},
     "a coating that lasts": WEARS | {"wear": {"distance": "0.1 m"}},
+    "a base that stops yielding as it wears": WEARS
+    | {"stress": {}, "control": {"mean_pressure": "200 MPa"}, "wear": {"distance": "0.1 m"}},
+    "a wheel that wears as it rolls": BALL
+    | {
+        "body": "mild steel{kw=1e-7mm^3/Nm}",
+        "friction": {"coefficient": 0.3},
+        "rolling": {"longitudinal": 0.001},
+        "wear": {"distance": "1 m", "track_body": "1 mm", "allowed_depth": "1 um"},
+    },
     "a surface worn too deep": WEARS | {"wear": {"distance": "0.1 m", "allowed_depth": "1 nm", "wears": "body"}},
     "a disk that wears as a track": WEARS
     | {

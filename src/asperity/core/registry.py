@@ -200,7 +200,7 @@ NEEDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "menisci": ("friction",),
         "viscoelastic": ("friction",),
         "rolling": ("friction",),
-        "wear": ("friction",),
+        "wear": ("friction", "stress", "rolling"),
         "indentation": ("plastic_flow",),
         "pairs": ("adhesion", "menisci"),
     }

@@ -88,7 +88,7 @@ def values_of(found: object, prefix: str = "") -> Iterator[Labelled]:
                 yield Labelled(replace(item, name=f"{named.name}_{item.name}", dims=dims), np.asarray(value)[:, number])
         elif _row_kind(hint) is not None:
             yield from _rows_of(value, _row_kind(hint), named.name)
-        elif isinstance(hint, type) and is_dataclass(hint):
+        elif _nested(hint) is not None:
             yield from values_of(value, f"{named.name}_")
         elif is_dataclass(value):
             maps: dict[str, Any] = {}
@@ -125,8 +125,9 @@ def made_of(kind: type, values: Mapping[str, Any], known: Mapping[str, Any], pre
             made[quantity.name] = np.stack(parts, axis=1)
         elif _row_kind(hint) is not None:
             made[quantity.name] = _rows_made(_row_kind(hint), values, name)
-        elif isinstance(hint, type) and is_dataclass(hint):
-            made[quantity.name] = made_of(hint, values, {}, f"{name}_")
+        elif (inner := _nested(hint)) is not None:
+            kept = inner is hint or any(f"{name}_{item.name}" in values for item in stored_quantities(inner))
+            made[quantity.name] = made_of(inner, values, {}, f"{name}_") if kept else None
         elif name not in values and type(None) in get_args(hint):
             made[quantity.name] = None
         else:
@@ -192,6 +193,14 @@ def _hints(kind: Any) -> dict[str, Any]:
 @cache
 def _columns(kind: Any) -> dict[str, tuple[Quantity, ...]]:
     return {item.name: item.metadata.get(COLUMNS, ()) for item in fields(kind)}
+
+
+def _nested(hint: Any) -> Any:
+    """The dataclass that the type ``hint`` is, or is where it is not None; None if it is something
+    else."""
+    kinds = [kind for kind in get_args(hint) if kind is not type(None)] if type(None) in get_args(hint) else [hint]
+    inner = kinds[0] if len(kinds) == 1 else None
+    return inner if isinstance(inner, type) and is_dataclass(inner) else None
 
 
 def _row_kind(hint: Any) -> Any:

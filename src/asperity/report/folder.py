@@ -3,15 +3,15 @@ every shell."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..core.quantity import Quantity
 from ..io.export import export_csv
 from ..io.tables import write_table
+from ..parts.part import Part
 from ..plots.together import drawing, save_pictures
 from ..run.document import ProblemDocument, dumps, save_document
 from ..run.execute import Outcome
@@ -39,12 +39,25 @@ def sheets(outcome: Outcome) -> Iterator[tuple[str, Iterator[tuple[Any, ...]]]]:
     for part in outcome.parts:
         name, axis = part.sheet
         if name and part.name in outcome.found:
-            values = outcome.found[part.name].values
-            yield name, _rows([(item, values[item.name]) for item in part.quantities if item.dims == (axis,)])
+            yield name, _rows(list(_columns(part, outcome.found[part.name].values, axis)))
 
 
-def _rows(columns: list[tuple[Quantity, Any]]) -> Iterator[tuple[Any, ...]]:
-    yield tuple(f"{item.name} ({item.unit})" for item, _ in columns)
+def _columns(part: Part, values: Mapping[str, Any], axis: str) -> Iterator[tuple[str, Any]]:
+    """Heading and numbers of each column along the ``axis``; an array of two axes has one for each
+    name along the second."""
+    for item in part.quantities:
+        if item.dims[:1] != (axis,) or item.name not in values:
+            continue
+        if len(item.dims) == 1:
+            yield f"{item.name} ({item.unit})", values[item.name]
+        elif item.dims[1] in values:
+            along = np.asarray(values[item.name]).T
+            for text, column in zip(np.atleast_1d(values[item.dims[1]]), along, strict=True):
+                yield f"{item.name} of {text} ({item.unit})", column
+
+
+def _rows(columns: list[tuple[str, Any]]) -> Iterator[tuple[Any, ...]]:
+    yield tuple(heading for heading, _ in columns)
     yield from zip(*(np.atleast_1d(column).tolist() for _, column in columns), strict=True)
 
 

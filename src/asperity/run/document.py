@@ -120,6 +120,7 @@ EXAMPLES: Mapping[str, str] = MappingProxyType(
         "fretting": "Where do two faces stick, and where do they slip, when they are shifted?",
         "connector": "Through which spots does the current flow, and how many milliohms are left?",
         "metal-seal": "Which way does a liquid find through the gap, and how much of it leaks?",
+        "running-in": "How do the summits of a coating wear flat, and how far do pressures and stresses fall?",
     }
 )
 """Further documents of this package, each solved in a second or so, and the question that each of

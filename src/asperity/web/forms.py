@@ -102,6 +102,8 @@ def _asked(item: Parameter, base: Any) -> Asked:
         hint = f"default: {shown}"
     elif isinstance(values, Number) and values.words:
         hint = f"{units.EXAMPLES.get(values.quantity, 'a number')} or {', '.join(values.words)}"
+    elif isinstance(values, Number) and values.percent:
+        hint = "such as 5 %"
     elif isinstance(values, Number) and values.quantity:
         hint = f"such as {units.EXAMPLES.get(values.quantity, f'1 {values.unit}')}"
     given: dict[str, Any] = {

@@ -13,10 +13,10 @@ import asperity as asp
 from asperity.run.document import EXAMPLES, PRESETS, built_in, load_document, picture
 
 
-def test_there_are_eight_and_no_preset_is_called_so() -> None:
-    assert len(EXAMPLES) == 8
+def test_there_are_nine_and_no_preset_is_called_so() -> None:
+    assert len(EXAMPLES) == 9
     assert not EXAMPLES.keys() & set(PRESETS)
-    assert len({load_document(name).title for name in EXAMPLES}) == 8
+    assert len({load_document(name).title for name in EXAMPLES}) == 9
     assert all(question.endswith("?") for question in EXAMPLES.values())
 
 
@@ -31,16 +31,17 @@ def test_the_picture_is_of_the_document_as_it_stands(name: str) -> None:
 
 
 def test_what_they_cover() -> None:
-    """The physics of the first eight things that people come for."""
+    """The physics of the first things that people come for."""
     given = {name: load_document(name) for name in EXAMPLES}
     assert given["coated-disk"].body.layers
     assert given["ball-on-coating"].surface.kind == "sphere"
-    assert all(getattr(given[name], "stress") for name in ("coated-disk", "ball-on-coating"))  # noqa: B009
+    assert all(getattr(given[name], "stress") for name in ("coated-disk", "ball-on-coating", "running-in"))  # noqa: B009
     assert given["rubber-on-ground"].control.path is not None
     assert given["flattened-metal"].law.kind == "hardness"
     for name, part in (("humid-air", "film"), ("fretting", "shear"), ("connector", "conductance")):
         assert getattr(given[name], part) is not None, name
     assert given["metal-seal"].sealing is not None
+    assert given["running-in"].wear is not None
 
 
 @pytest.mark.slow

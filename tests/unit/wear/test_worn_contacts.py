@@ -201,7 +201,8 @@ def test_a_thinned_coating_changes_the_compliance() -> None:
     left = history.last.problem.body
     assert isinstance(left, Layered)
     pressure = history.last.pressure
-    mean = float((history.depth * pressure).sum() / pressure.sum())
+    # what is worn below a point that is bare was none of the coating
+    mean = float((np.minimum(history.depth, 4e-6) * pressure).sum() / pressure.sum())
     # refreshed at every twentieth of the thickness
     assert 4e-6 - left.thickness == pytest.approx(mean, abs=0.05 * 4e-6)
     assert history.unevenness > 0.0

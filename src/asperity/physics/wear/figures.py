@@ -15,7 +15,22 @@ from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
 from ...plots.animation import save_frames
 from ...plots.maps import Field, Kinds, Look, map_of
-from ...plots.picture import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, VERMILLION, Plot, Scale, legend_above, scale, style
+from ...plots.picture import (
+    BLACK,
+    BLUE,
+    GREEN,
+    NO_CONTACT,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+    Plot,
+    Scale,
+    legend_above,
+    literal,
+    scale,
+    style,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,7 +68,8 @@ class WearPicture:
     def along(self, way: RealArray) -> tuple[Scale, str]:
         """Scale and label of an axis of ``way``."""
         in_unit = scale(way, "1" if self.facts["fretting"] else "m")
-        return in_unit, "cycles" if self.facts["fretting"] else f"distance slid ({in_unit.symbol})"
+        motion = "rolled" if self.facts.get("rolls") else "slid"
+        return in_unit, "cycles" if self.facts["fretting"] else f"distance {motion} ({in_unit.symbol})"
 
     def at(self, name: str) -> float:
         """Way after which something is reached; NaN where it is not."""
@@ -131,7 +147,8 @@ def plot_depth(shown: WearPicture, ax: Axes) -> Axes:
     in_m = scale(np.append(depth, [value for value, _, _ in near]), "m")
     in_way, label = shown.along(way)
     ax.plot(in_way(way), in_m(depth), color=BLUE, label="largest")
-    ax.plot(in_way(way), in_m(mean), color=GREEN, label="mean of the nominal area")
+    if np.isfinite(float(shown.values["wear_mean_depth"])):
+        ax.plot(in_way(way), in_m(mean), color=GREEN, label="mean of the nominal area")
     for value, colour, name in near:
         ax.axhline(float(in_m(value)), color=colour, linestyle="--", linewidth=0.8, label=name)
     for name, colour in (("wear_breakthrough", VERMILLION), ("wear_life", ORANGE)):
@@ -142,23 +159,28 @@ def plot_depth(shown: WearPicture, ax: Axes) -> Axes:
 
 
 def plot_course(shown: WearPicture, ax: Axes) -> Axes:
-    """Draw on ``ax`` real area, largest pressure and rms height along the way, over those at its
-    start."""
+    """Draw on ``ax`` real area, largest pressure and rms height along the way, and the force along
+    the surface where it rolls, over those at its start."""
     in_way, label = shown.along(shown.way)
-    low, high = 0.1, 10.0
+    low, high = 1.0, 1.0
     for name, colour, text in (
         ("course_area_fraction", BLUE, "real contact area"),
         ("course_max_pressure", VERMILLION, "maximum pressure"),
         ("course_rms_height", GREEN, "rms height"),
+        ("course_tangential_force", ORANGE, "tangential force"),
     ):
         values = shown.array(name)
-        if values[0] > 0.0:
+        if values.size and values[0] > 0.0:
             share = values / values[0]
-            low, high = min(low, 0.7 * float(share.min())), max(high, 1.4 * float(share.max()))
+            low, high = min(low, float(share.min())), max(high, float(share.max()))
             ax.plot(in_way(shown.way), share, color=colour, label=text)
     ax.axhline(1.0, color=BLACK, linewidth=0.5)
     ax.set(xlabel=label, ylabel="over that at the start", xlim=(0.0, float(in_way(shown.way[-1]))))
-    ax.set(yscale="log", ylim=(low, high))
+    if low > 0.5 and high < 2.0:
+        room = max(0.1 * (high - low), 1e-3)
+        ax.set_ylim(low - room, high + room)
+    else:
+        ax.set(yscale="log", ylim=(min(0.1, 0.7 * low), max(10.0, 1.4 * high)))
     return legend_above(ax, columns=3)
 
 
@@ -179,6 +201,31 @@ def plot_bearing(shown: WearPicture, ax: Axes) -> Axes:
     return legend_above(ax)
 
 
+LAYER_COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK)
+"""Colours of layers from the surface down."""
+
+
+def plot_worn_stresses(shown: WearPicture, ax: Axes) -> Axes:
+    """Draw on ``ax`` the largest stress of each layer over its yield stress along the way; where no
+    yield stress is known, the von Mises stress."""
+    layers = [literal(str(name)) for name in np.atleast_1d(shown.values["wear_layer"])]
+    used = shown.array("course_utilisation").reshape(-1, len(layers))
+    known = bool(np.isfinite(used).any())
+    columns = used if known else shown.array("course_von_mises").reshape(-1, len(layers))
+    at = np.flatnonzero(np.isfinite(shown.array("course_coating")))
+    in_way, label = shown.along(shown.way)
+    unit = scale(columns, "1" if known else "Pa")
+    for number, (name, column) in enumerate(zip(layers, unit(columns[at]).T, strict=True)):
+        if np.isfinite(column).any():
+            colour = LAYER_COLOURS[number % len(LAYER_COLOURS)]
+            ax.plot(in_way(shown.way[at]), column, color=colour, marker=".", label=name)
+    if known:
+        ax.axhline(1.0, color=BLACK, linestyle="--", linewidth=0.8, label="yield stress")
+    ylabel = "largest stress / yield stress" if known else f"largest von Mises stress ({unit.symbol})"
+    ax.set(xlabel=label, ylabel=ylabel, xlim=(0.0, float(in_way(shown.way[-1]))), yscale="log")
+    return legend_above(ax, columns=3)
+
+
 WORN_PLOT = map_of(
     "worn_depth",
     "Worn depth",
@@ -197,7 +244,8 @@ SECTION_PLOTS = (
     Plot(
         "worn_profile",
         "Section as it wears",
-        "Heights along x, or across a track, through the point that is pressed most at first, after the ways above.",
+        "Heights along x, or across a track or wheel, through the point that is pressed most at first, after the ways "
+        "above.",
         plot_section_heights,
     ),
     Plot(
@@ -223,7 +271,8 @@ DEPTH_PLOT = Plot(
 COURSE_PLOT = Plot(
     "wear_course",
     "Contact along the way",
-    "Real contact area, maximum pressure and rms height over those at the start.",
+    "Real contact area, maximum pressure, rms height, and where it rolls the force along the surface, over those at "
+    "the start.",
     plot_course,
 )
 BEARING_PLOT = Plot(
@@ -231,6 +280,13 @@ BEARING_PLOT = Plot(
     "Bearing curve before and after",
     "Share of the composite surface that is higher than a height, from the mean plane before wear.",
     plot_bearing,
+)
+STRESS_PLOT = Plot(
+    "wear_stresses",
+    "Stresses as it wears",
+    "Largest stress of each layer over its yield stress, or the stress where that is not known, with what is left of "
+    "the coating.",
+    plot_worn_stresses,
 )
 
 

@@ -164,9 +164,10 @@ class Fretting(March):
             none = InterfaceState(np.zeros(self.problem.grid.shape))
             state = WearState(0.0, 0.0, self.losses.virgin(), none)
         state.interface.require_shape(self.problem.grid.shape)
-        prepared = self.prepared(state)
+        depths = self.losses.depths(state.doses)
+        prepared = self.prepared(state, depths)
         cycle = self.sheared(prepared, state.interface)
-        at = At(replace(state, interface=cycle.result.state), cycle.result, prepared, cycle.status)
+        at = At(replace(state, interface=cycle.result.state), cycle.result, prepared, cycle.status, depths)
         values: dict[str, list[float]] = {item.name: [] for item in QUANTITIES}
         kept, taken, number = [(at.state.cycles, at.result)], 0, self.steps.number
         self.record(values, at)
@@ -202,7 +203,8 @@ class Fretting(March):
             stage = self.stage(plain, begin.state, stretch, None)
             doses = losses.after(before, stage.pressure, count * slip)
             found = replace(state, doses=doses)
-            prepared = self.prepared(found, at.prepared)
+            depths = losses.depths(doses)
+            prepared = self.prepared(found, depths, at.prepared)
             after = self.sheared(prepared, at.result.state)
             status = stage.status if not stage.status.converged else after.status
             # the trapezoidal rule between the cycles before and after the jump
@@ -226,7 +228,7 @@ class Fretting(March):
             misplaced=state.misplaced + misplaced,
             breakthrough=min(state.breakthrough, losses.worn_through(state.doses, doses, (state.cycles, count))),
         )
-        return At(found, after.result, prepared, status), after
+        return At(found, after.result, prepared, status, depths), after
 
     def frictionless(self, prepared: Prepared) -> Prepared:
         """The ``prepared`` surfaces without friction."""

@@ -27,6 +27,9 @@ UNEVEN = 0.2
 """Standard deviation of the worn depth in the contact, over the thickness that is left, from which
 on a compliance of one thickness is doubtful (handbook of the project, transport, section 9)."""
 
+_ROUNDING = 1e-12
+"""Share of a thickness below which nothing is left of it."""
+
 SIDES: tuple[Literal["body", "counter"], ...] = ("body", "counter")
 
 
@@ -56,20 +59,23 @@ def thickness(body: Body) -> float:
     return body.reduced.thickness if isinstance(body, Layered) else 0.0
 
 
-def mean_depth(depth: RealArray | None, pressure: RealArray) -> float:
-    """Mean of the worn ``depth`` (nx, ny) in m, weighted by the ``pressure`` (nx, ny)."""
+def mean_taken(depth: RealArray | None, whole: float, pressure: RealArray) -> float:
+    """Mean of what the worn ``depth`` (nx, ny) in m takes off layers that are ``whole`` (m) thick,
+    weighted by the ``pressure`` (nx, ny)."""
     total = float(pressure.sum())
-    return 0.0 if depth is None or total <= 0.0 else float((depth * pressure).sum()) / total
+    return 0.0 if depth is None or total <= 0.0 else float((np.minimum(depth, whole) * pressure).sum()) / total
 
 
 def followed(problem: ContactProblem, depths: Doses, pressure: RealArray, now: Thinned) -> Thinned:
     """What the compliance takes off the layers of both bodies of the virgin ``problem``: as
-    ``now``, or the mean where that has changed enough."""
+    ``now``, or the mean where that has changed enough, or nothing is left."""
     found = []
     for name, body in zip(SIDES, (problem.body, problem.counter_body), strict=True):
         before, whole = getattr(now, name), thickness(body)
-        mean = min(mean_depth(getattr(depths, name), pressure), whole)
-        found.append(mean if whole > 0.0 and abs(mean - before) > REFRESHED * whole else before)
+        mean = mean_taken(getattr(depths, name), whole, pressure)
+        if mean >= whole * (1.0 - _ROUNDING):
+            mean = before = whole
+        found.append(mean if abs(mean - before) > REFRESHED * whole else before)
     return Thinned(*found)
 
 

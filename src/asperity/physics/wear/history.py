@@ -5,18 +5,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 
 from ...contact.result import ContactResult
 from ...contact.state import InterfaceState
+from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.quantity import Quantity, given, measured
 from ...core.status import Advice, Status
+from ..stress.criteria import Criterion, VonMises
+from ..stress.survey import StressRequest
 from .geometry import UNEVEN, Thinned
 from .losses import Doses
+from .stresses import WornStresses, layer_names, stresses_of
 
 LARGEST_ERROR = 0.2
 """Share of the worn volume that steps may have misplaced, above which numbers are doubtful."""
@@ -42,6 +47,13 @@ QUANTITIES = (
 )
 """What is known after every step of the sliding distance; ``cycles`` is NaN under gross sliding,
 the ``distance`` of fretting the sum of what the mean point slides."""
+
+ROLLING = (
+    Quantity("tangential_force", "N", "force along the surface as it rolls", ("course",)),
+    Quantity("slip_area_fraction", "1", "area that slips as it rolls / real contact area (pixels)", ("course",)),
+    Quantity("rolling_heat", "J/m", "heat per distance rolled", ("course",)),
+)
+"""What is known besides where it rolls."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +108,8 @@ class WearHistory:
     last
         Contact at the end; its problem has the worn surfaces.
     values
-        Arrays (n,) by the names in ``QUANTITIES``, the first at the start.
+        Arrays (n,) by the names in ``QUANTITIES``, and in ``ROLLING`` where it rolls, the first at
+        the start.
     body_depth, counter_depth
         Worn depths (nx, ny) in m since the virgin surfaces.
     breakthrough
@@ -118,14 +131,16 @@ class WearHistory:
     status
         How it ended.
     kept
-        Contacts at the distances (or cycles) that were asked for, with these; the problem of each
-        has its worn surfaces.
+        Contacts at the distances (or cycles) that were asked for, with these, and more where the
+        end was not known; the problem of each has its worn surfaces.
     state
         To go on from.
+    stresses
+        Stresses in the contacts ``kept``, see ``stressed``; None before.
     """
 
     last: ContactResult = given()
-    values: Mapping[str, RealArray] = measured("", "wear along the course", "course", columns=QUANTITIES)
+    values: Mapping[str, RealArray] = measured("", "wear along the course", "course", columns=(*QUANTITIES, *ROLLING))
     body_depth: RealArray = measured("m", "worn depth of the body", "x", "y")
     counter_depth: RealArray = measured("m", "worn depth of the counter body", "x", "y")
     breakthrough: float = measured("", "distance (m) or cycles to the first point without layers")
@@ -138,6 +153,7 @@ class WearHistory:
     status: Status = measured("", "how it ended")
     kept: tuple[tuple[float, ContactResult], ...] = given(default=())
     state: WearState | None = given(default=None, repr=False)
+    stresses: WornStresses | None = measured("", "stresses as it wears", default=None, repr=False)
 
     def __getitem__(self, name: str) -> RealArray:
         """Values of the quantity ``name`` along the course.
@@ -189,6 +205,48 @@ class WearHistory:
             return math.inf
         return float(np.interp(allowed_depth, depth, self.course))
 
+    def stressed(
+        self,
+        friction: float = 0.0,
+        direction: float = 0.0,
+        *,
+        of: Literal["body", "counter_body"] = "body",
+        criterion: Criterion = VonMises(),
+    ) -> WearHistory:
+        """The same history with the stresses in the contacts ``kept``, on planes that are dense
+        against the contact spots.
+
+        Parameters
+        ----------
+        friction
+            Friction coefficient whose shear traction loads the body, >= 0; that of fretting is
+            found with its stick and slip.
+        direction
+            Angle in rad from x of that traction on the body.
+        of
+            The body whose stresses are computed, worn as it is then.
+        criterion
+            What decides on yield: ``VonMises()``, ``Tresca()`` or alike.
+
+        Raises
+        ------
+        InputError
+            If a value is out of range, the body is rigid, or no contact was kept, as in a history
+            from a file.
+        """
+        friction = require.not_negative(friction, "friction coefficient of stresses")
+        require.one_of(of, ("body", "counter_body"), "body in which stresses are asked")
+        if not self.kept:
+            raise InputError(
+                "contacts kept of a contact that wears must be at hand for stresses, but there are none: a file holds "
+                "the last alone. Ask for the stresses before it is saved."
+            )
+        request = StressRequest(friction, require.finite(direction, "direction of the friction"), of=of)
+        request = replace(request, criterion=criterion)
+        request.check(self.kept[0][1].problem)
+        body = getattr(self.kept[0][1].problem, of)
+        return replace(self, stresses=stresses_of(self.kept, layer_names(body), request))
+
     def findings(self) -> Iterator[Advice]:
         """What should be known before the numbers are used."""
         if self.unevenness > UNEVEN:
@@ -197,9 +255,9 @@ class WearHistory:
                 "unevenly worn coating",
                 f"What is left of the coating varies in the contact by {self.unevenness:.0%} of its mean thickness. "
                 f"The compliance is that of one thickness, and off by about {self.compliance_error:.0%}.",
-                "Where the coating is much stiffer or softer than its base, take pressures as estimates.",
+                "Where the coating is much stiffer or softer than its base, take pressures and stresses as estimates.",
                 {"variation": self.unevenness, "error": self.compliance_error},
-                ("wear_max_pressure", "wear_area_fraction"),
+                ("wear_max_", "wear_area_fraction", "wear_utilisation", "wear_yield"),
             )
         if self.error > LARGEST_ERROR:
             yield Advice(

@@ -168,10 +168,11 @@ class Losses:
                 earliest = min(earliest, begin + length * float(share.min()))
         return earliest
 
-    def volumes(self, doses: Doses) -> tuple[float, float]:
-        """Worn volume (m³) of body and counter body, of a track that of its whole length."""
+    def volumes(self, depths: Doses) -> tuple[float, float]:
+        """Worn volume (m³) of body and counter body at ``depths`` (m), of a track that of its whole
+        length."""
         found = []
-        for loss, depth in zip((self.body, self.counter), self.depths(doses), strict=True):
+        for loss, depth in zip((self.body, self.counter), depths, strict=True):
             if loss is None or depth is None:
                 found.append(0.0)
             else:

@@ -24,6 +24,7 @@ from .geometry import followed, unevenness, worn_problem
 from .history import QUANTITIES, WearHistory, WearState
 from .law import Sides, WearLaw
 from .losses import Doses, Losses
+from .sections import Sections
 from .stage import Stage, Stretch, implicit_stage
 from .third_body import ThirdBody
 
@@ -176,7 +177,8 @@ def worn(
     state
         Where an earlier history of the same problem ended, to go on from.
     until_bare
-        Whether to end with the step in which the first point is without its layers.
+        Whether to end with the step in which the first point is without its layers. As that end is
+        not known before, contacts spread evenly over what was slid are kept, too.
     on_failure
         ``"raise"`` a ConvergenceError holding the history so far, or ``"return"`` it with its
         status.
@@ -213,20 +215,22 @@ def worn(
 
 
 class At(NamedTuple):
-    """Where a contact that wears is: its ``state``, the contact there, with what prepared it, and
-    how the step to it ended."""
+    """Where a contact that wears is: its ``state``, the contact there, with what prepared it, how
+    the step to it ended, and the worn ``depths`` (m) of both bodies."""
 
     state: WearState
     result: ContactResult
     prepared: Prepared
     status: Status
+    depths: Doses
 
 
 class Tried(NamedTuple):
-    """A step that was tried: ``doses`` after it, the contact then with what prepared it, the volume
-    (m³) that is ``misplaced``, and how its contacts ended."""
+    """A step that was tried: ``doses`` and ``depths`` after it, the contact then with what prepared
+    it, the volume (m³) that is ``misplaced``, and how its contacts ended."""
 
     doses: Doses
+    depths: Doses
     result: ContactResult
     prepared: Prepared
     misplaced: float
@@ -245,13 +249,13 @@ class March:
         self.virgin_top = float(problem.profile().max())
         self.pairs, self.contacts = 0.0, 0
 
-    def prepared(self, state: WearState, like: Prepared | None = None) -> Prepared:
-        """The contact of the surfaces at ``state``, with the operator of one ``like`` it, if its
-        bodies are the same."""
+    def prepared(self, state: WearState, depths: Doses, like: Prepared | None = None) -> Prepared:
+        """The contact of the surfaces at ``state``, worn to ``depths``, with the operator of one
+        ``like`` it, if its bodies are the same."""
         bare = self.losses.bare(state.doses) if self.layered else None
         left, debris = self.losses.debris(state.doses), self.sides.debris
         layer = None if left is None or debris is None or not left.any() else ThirdBody(left, debris.modulus)
-        problem = worn_problem(self.problem, self.losses.depths(state.doses), state.taken, bare, layer)
+        problem = worn_problem(self.problem, depths, state.taken, bare, layer)
         same = like is not None and like.operator.compliance == problem.compliance
         return self.made(problem, like.operator if like is not None and same else None)
 
@@ -276,17 +280,19 @@ class March:
             none = np.zeros(self.problem.grid.shape)
             state = WearState(0.0, math.nan, self.losses.virgin(), InterfaceState(none))
         state.interface.require_shape(self.problem.grid.shape)
-        prepared = self.prepared(state)
+        depths = self.losses.depths(state.doses)
+        prepared = self.prepared(state, depths)
         result = state.contact or self.solved(prepared, state.interface)
         going = state.interface.pressure.any()
-        return At(state if going else replace(state, interface=result.state), result, prepared, result.status)
+        return At(state if going else replace(state, interface=result.state), result, prepared, result.status, depths)
 
     def along(self, state: WearState | None, marks: Sequence[float], *, until_bare: bool) -> WearHistory:
         """History up to all ``marks`` (m)."""
         at, number, taken, ended = self.begun(state), self.steps.number, 0, False
         values: dict[str, list[float]] = {item.name: [] for item in QUANTITIES}
-        kept = [(at.state.distance, at.result)]
+        kept, between = [(at.state.distance, at.result)], Sections()
         self.record(values, at)
+        between.add(*kept[0])
         for mark in marks:
             equal = None if number is None else (mark - at.state.distance) / number
             while not ended and at.status.converged and mark - at.state.distance > _ROUNDING * mark:
@@ -295,11 +301,13 @@ class March:
                     break
                 at, taken = self.advanced(at, mark, equal), taken + 1
                 self.record(values, at)
-                ended = until_bare and math.isfinite(at.state.breakthrough)
+                if until_bare:
+                    between.add(at.state.distance, at.result)
+                    ended = math.isfinite(at.state.breakthrough)
             kept.append((at.state.distance, at.result))
             if ended or not at.status.converged:
                 break
-        return self.history(values, at, kept)
+        return self.history(values, at, between.with_marks(kept))
 
     def advanced(self, at: At, mark: float, equal: float | None) -> At:
         """After one step; one whose error is too large is repeated with a smaller length."""
@@ -361,9 +369,10 @@ class March:
     def checked(self, at: At, doses: Doses, interface: InterfaceState, misplaced: float, status: Status) -> Tried:
         """The step to ``doses``, with the contact of the worn surfaces, solved from ``interface``
         on: no wear is in its equations."""
-        prepared = self.prepared(replace(at.state, doses=doses), at.prepared)
+        depths = self.losses.depths(doses)
+        prepared = self.prepared(replace(at.state, doses=doses), depths, at.prepared)
         result = self.solved(prepared, interface)
-        return Tried(doses, result, prepared, misplaced, status if result.converged else result.status)
+        return Tried(doses, depths, result, prepared, misplaced, status if result.converged else result.status)
 
     def after(self, at: At, tried: Tried, slid: float, length: float) -> At:
         """After a step that was ``tried`` and stands."""
@@ -379,25 +388,26 @@ class March:
             breakthrough=min(state.breakthrough, losses.worn_through(state.doses, tried.doses, (state.distance, slid))),
             last=slid,
         )
-        taken = followed(self.problem, losses.depths(found.doses), result.pressure, found.taken)
+        taken = followed(self.problem, tried.depths, result.pressure, found.taken)
         if taken == found.taken:
-            return At(found, result, tried.prepared, tried.status)
+            return At(found, result, tried.prepared, tried.status, tried.depths)
         # from now on the compliance is that of the thickness that is left
         found = replace(found, taken=taken, last=math.nan)
-        prepared = self.prepared(found)
+        prepared = self.prepared(found, tried.depths)
         again = self.solved(prepared, InterfaceState(result.pressure, result.state.memory))
         found = replace(found, interface=replace(again.state, earlier=None, deflections=None))
-        return At(found, again, prepared, tried.status if again.converged else again.status)
+        status = tried.status if again.converged else again.status
+        return At(found, again, prepared, status, tried.depths)
 
     def record(self, values: dict[str, list[float]], at: At) -> None:
         """Add the numbers at ``at`` to ``values``."""
         state, result, losses = at.state, at.result, self.losses
         profile, touching = at.prepared.profile, result.contact
-        depths = [depth for depth in losses.depths(state.doses) if depth is not None]
-        body, counter = losses.volumes(state.doses)
+        depths = [depth for depth in at.depths if depth is not None]
+        body, counter = losses.volumes(at.depths)
         pixels = int(np.count_nonzero(touching))
         bare = int(np.count_nonzero(touching & losses.bare(state.doses))) if self.layered else 0
-        within = float(losses.depth(state.doses).sum()) * self.problem.grid.pixel_area
+        within = sum(float(depth.sum()) for depth in depths) * self.problem.grid.pixel_area
         now = {
             "distance": state.distance,
             "cycles": state.cycles,
@@ -420,7 +430,7 @@ class March:
     def history(self, values: dict[str, list[float]], at: At, kept: list[tuple[float, ContactResult]]) -> WearHistory:
         """History that has come to ``at``."""
         state = at.state
-        depths = self.losses.depths(state.doses)
+        depths = at.depths
         both = [np.zeros(self.problem.grid.shape) if depth is None else np.array(depth) for depth in depths]
         uneven = unevenness(self.problem, depths, at.result.pressure)
         fretting = not math.isnan(state.cycles)

@@ -15,9 +15,12 @@ from ...core.settings import Settings, setting
 from ...core.values import Choice, Count, Length, Number, Pressure, StepOfPath, WearCoefficient, Whole
 from ...parts.part import Part
 from ..friction.part import friction_law
+from ..rolling.part import Rolling, Rolls
+from ..stress.part import stress_request
 
 if TYPE_CHECKING:
     from ..friction.law import FrictionLaw
+    from ..stress.survey import StressRequest
 
 WORDS = {"known": "known", "body": "body", "counter_body": "counter body", "both": "both"}
 
@@ -33,15 +36,17 @@ SLIDING_ALONE = ("track_body", "track_counter_body", "until_bare")
 
 
 class WearSettings(Settings):
-    """Wear as one body slides over the other, or moves to and fro on it (fretting): the surfaces,
-    areas and pressures follow what is worn away.
+    """Wear as one body slides over the other, moves to and fro on it (fretting), or rolls with the
+    creepages of the table [rolling]: surfaces, areas and pressures follow what is worn away.
 
     Each body wears by the coefficients of the materials of its layers and base; one whose
     coefficients are not known does not, unless it is named. A coefficient given here is that of
     all materials of its body.
     """
 
-    distance: Length | None = setting(None, option="--wear-distance", help="Slid, with all points sliding: 10m")
+    distance: Length | None = setting(
+        None, option="--wear-distance", help="Slid, with all points sliding, or rolled: 10m"
+    )
     cycles: Count | None = setting(None, option="--wear-cycles", help="Of fretting, instead of a distance: 10000")
     shift: Length | None = setting(
         None, option="--wear-shift", help="Of fretting, to either side along the friction: 5um"
@@ -65,7 +70,9 @@ class WearSettings(Settings):
         "0 J/m^2", option="--wear-threshold-energy", help="Of friction, before a point wears by energy: 100kJ/m^2"
     )
     track_body: Length | None = setting(
-        None, option="--track-body", help="Length along x of the track that the body is, such as a disk: 60mm"
+        None,
+        option="--track-body",
+        help="Length along x of the track that the body is, such as a disk; of one that rolls all around: 60mm",
     )
     track_counter_body: Length | None = setting(
         None, option="--track-counter-body", help="The same of the counter body"
@@ -122,11 +129,6 @@ class WearSettings(Settings):
                 f".{sliding} must be left out for fretting, but is given; it is for sliding over a distance "
                 "({wear.distance=10m})."
             )
-        if self.track_body is not None and self.track_counter_body is not None:
-            raise InputError(
-                ".track_counter_body must be left out where the body is a track, but both are given: the other of "
-                "both is in contact all the time."
-            )
         if bool(self.debris) != (self.debris_modulus is not None):
             missing, other = ("debris", "debris_modulus") if not self.debris else ("debris_modulus", "debris")
             raise InputError(
@@ -147,12 +149,14 @@ class WearSettings(Settings):
 @dataclass(frozen=True)
 class Wears:
     """What is asked of wear, the law of friction, its coefficient (0 for none) and its direction in
-    rad."""
+    rad, the stresses that are asked for as it wears, and how it rolls, if it does."""
 
     settings: WearSettings
     friction: FrictionLaw | None
     coefficient: float
     direction: float
+    stresses: StressRequest | None = None
+    rolls: Rolls | None = None
 
     @property
     def fretting(self) -> bool:
@@ -161,8 +165,49 @@ class Wears:
 
 
 _GRID = ("x", "y")
+STEP, STATE, POINT, LAYER = "wear_step", "wear_state", "section_point", "wear_layer"
+"""Axes of the steps of wear, of the states whose sections are kept, along these, and of layers."""
+
+STRESS_SCALARS = (
+    *(
+        Quantity(f"wear_{name}_{when}", unit, f"{label} {'before' if when == 'first' else 'after'} wear")
+        for name, unit, label in (
+            ("max_von_mises", "Pa", "largest von Mises stress"),
+            ("max_tension", "Pa", "largest tension (σ₁)"),
+            ("utilisation", "1", "largest stress / yield stress"),
+            ("yield_load_factor", "1", "factor on the stresses at yield"),
+        )
+        for when in ("first", "last")
+    ),
+    Quantity("wear_utilisation_largest", "1", "largest stress / yield stress along the way"),
+    Quantity("wear_yield_load_factor_least", "1", "least factor on the stresses at yield along the way"),
+    Quantity("wear_yield_begins", "m", "distance after which a layer first yields"),
+    Quantity("wear_yield_begins_cycles", "1", "cycles after which a layer first yields"),
+    Quantity("wear_yield_ends", "m", "distance after which nothing yields any more"),
+    Quantity("wear_yield_ends_cycles", "1", "cycles after which nothing yields any more"),
+)
+"""Numbers of the stresses as it wears, where these are asked for."""
+
+STRESS_COLUMNS = (
+    Quantity(LAYER, "", "layer, from the surface down", (LAYER,)),
+    Quantity("course_coating", "m", "thickness of the layers with which stresses are computed", (STEP,)),
+    Quantity("course_yield_load_factor", "1", "factor on the stresses at yield", (STEP,)),
+    *(
+        Quantity(f"course_{name}", unit, label, (STEP, LAYER))
+        for name, unit, label in (
+            ("von_mises", "Pa", "largest von Mises stress"),
+            ("tension", "Pa", "largest tension (σ₁)"),
+            ("utilisation", "1", "largest stress / yield stress"),
+            ("stress_x", "m", "x of the largest stress"),
+            ("stress_y", "m", "y of the largest stress"),
+            ("stress_depth", "m", "depth of the largest stress below the worn surface"),
+        )
+    ),
+)
+"""The same after steps, NaN after those at which stresses are not computed."""
+
 SCALARS = (
-    Quantity("wear_distance", "m", "distance slid"),
+    Quantity("wear_distance", "m", "distance slid or rolled"),
     Quantity("wear_cycles", "1", "cycles of fretting"),
     Quantity("wear_volume", "m**3", "worn volume of both bodies"),
     Quantity("wear_body_volume", "m**3", "worn volume of the body"),
@@ -171,7 +216,7 @@ SCALARS = (
     Quantity("wear_body_depth", "m", "largest worn depth of the body"),
     Quantity("wear_counter_body_depth", "m", "largest worn depth of the counter body"),
     Quantity("wear_mean_depth", "m", "worn volume / nominal area"),
-    Quantity("wear_rate", "m**2/N", "worn volume / (force x distance slid)"),
+    Quantity("wear_rate", "m**2/N", "worn volume / (force x distance)"),
     Quantity("wear_breakthrough", "m", "distance after which a coating is first worn through"),
     Quantity("wear_breakthrough_cycles", "1", "cycles after which a coating is first worn through"),
     Quantity("wear_bare_fraction", "1", "area without coating / real contact area after wear"),
@@ -194,6 +239,7 @@ SCALARS = (
     Quantity("wear_unevenness", "1", "variation of the thickness that is left of the coating"),
     Quantity("wear_compliance_error", "1", "error of the compliance by this variation"),
     Quantity("wear_steps", "1", "steps of wear"),
+    *STRESS_SCALARS,
 )
 """Numbers of a contact that wears; NaN where there is no such thing."""
 
@@ -205,9 +251,6 @@ FIELDS = (
     Quantity("worn_bare", "1", "whether a coating is worn through there", _GRID),
 )
 """Fields of a contact that wears."""
-
-STEP, STATE, POINT = "wear_step", "wear_state", "section_point"
-"""Axes of the steps of wear, of the states whose sections are kept, and along these."""
 
 SECTION = (
     Quantity("section_way", "m", "distance slid at a section; of fretting the cycles", (STATE,)),
@@ -238,25 +281,26 @@ class Wear(Part):
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
         """Scalars, fields, columns of all steps, and sections."""
-        from .history import QUANTITIES
+        from .history import QUANTITIES, ROLLING
 
-        course = (replace(item, name=f"course_{item.name}", dims=(STEP,)) for item in QUANTITIES)
-        return (*SCALARS, *FIELDS, *course, *SECTION)
+        course = (replace(item, name=f"course_{item.name}", dims=(STEP,)) for item in (*QUANTITIES, *ROLLING))
+        return (*SCALARS, *FIELDS, *course, *STRESS_COLUMNS, *SECTION)
 
     def asked(self, document: Any, folder: Path) -> Wears:
-        """The settings with the friction of the table [friction]."""
+        """The settings with the friction of the table [friction], and the motion of [rolling]."""
         ask: WearSettings = document.wear
         friction: Any = getattr(document, "friction", None)
         plain = friction is not None and friction.law == "coulomb"
         coefficient = float(friction.coefficient) if plain else 0.0
         fretting = ask.cycles is not None
-        for table in ("shear", "rolling"):
-            if getattr(document, table, None) is not None:
-                raise InputError(
-                    f"wear must be asked for without a table {table}, but is asked for beside it: what wears is moved "
-                    "by its own table, over a distance ({wear.distance}) or to and fro ({wear.shift}).",
-                    subject="wear",
-                )
+        if getattr(document, "shear", None) is not None:
+            raise InputError(
+                "wear must be asked for without a table shear, but is asked for beside it: what wears is moved by its "
+                "own table, over a distance ({wear.distance}) or to and fro ({wear.shift}).",
+                subject="wear",
+            )
+        rolls = Rolling().asked(document, folder) if getattr(document, "rolling", None) is not None else None
+        _require_motion(ask, rolls)
         if (fretting or ask.law == "energy") and not coefficient:
             why = "for fretting" if fretting else "for wear by energy"
             raise InputError(
@@ -264,4 +308,34 @@ class Wear(Part):
                 subject="friction.coefficient",
             )
         law = friction_law(friction, sheared=fretting) if plain and coefficient else None
-        return Wears(ask, law, coefficient, 0.0 if friction is None else float(friction.direction))
+        stress = None if rolls is not None else getattr(document, "stress", None)
+        request = None if stress is None else stress_request(stress, friction)
+        return Wears(ask, law, coefficient, 0.0 if friction is None else float(friction.direction), request, rolls)
+
+
+NOT_ROLLING = ("cycles", "debris", "threshold_pressure")
+"""Keys that have no meaning where the contact rolls."""
+
+
+def _require_motion(ask: WearSettings, rolls: Rolls | None) -> None:
+    """Refuse keys that have no meaning in sliding, or in rolling where the contact ``rolls``."""
+    if rolls is None:
+        if ask.track_body is not None and ask.track_counter_body is not None:
+            raise InputError(
+                "wear.track_counter_body must be left out where the body is a track, but both are given: the other "
+                "of both is in contact all the time, unless they roll ({rolling.longitudinal})."
+            )
+        return
+    meaningless = next((key for key in NOT_ROLLING if getattr(ask, key)), "order" if ask.order == 2 else None)
+    if ask.step not in ("peak", "last"):
+        meaningless = "step"
+    if meaningless is not None:
+        raise InputError(
+            f"wear.{meaningless} must be left out where the contact rolls, but is given: it wears over a distance "
+            "({wear.distance}), under the last load."
+        )
+    if rolls.roughness is not None:
+        raise InputError(
+            "rolling.roughness_file must be left out where the contact wears as it rolls, but is given: a rough wheel "
+            "rolls unsteadily."
+        )

@@ -43,8 +43,8 @@ def rolled(contact: RollingContact, law: WearLaw, distance: float, circumference
 
     A point that runs through the contact slips by s(x) dx on the way, s being the slip over the
     rolling speed, so that its dose in one passage is ∫ p s dx: Archard's law along the way. The
-    shape is taken as it is: the contact of what has worn is another one, to be solved again once
-    the depth is no more small against the deflection.
+    shape is taken as it is: the contact of what has worn is another one, once the depth is no more
+    small against the deflection (``worn_by_rolling``).
 
     Parameters
     ----------
@@ -62,17 +62,27 @@ def rolled(contact: RollingContact, law: WearLaw, distance: float, circumference
     InputError
         If a value is out of range, or the law has a map or a threshold of the pressure.
     """
-    require.instance(law, WearLaw, "law of wear of a rolling body", "Write archard(1e-15).")
-    if isinstance(law.factor, np.ndarray) or law.threshold_pressure:
-        raise InputError(f"law of wear of a rolling body must have one coefficient and no threshold, but is {law!r}.")
+    require_rolling_law(law)
     require.positive(distance, "distance rolled (m)")
     require.positive(circumference, "circumference of a rolling body (m)")
     grid = contact.normal.problem.grid
-    along = 0 if contact.direction.endswith("x") else 1
-    slip = np.hypot(*contact.slip)
-    dose = (contact.normal.pressure * slip).sum(axis=along) * grid.spacing[along]
     passages = distance / circumference
-    depth = law.depth(passages * dose)
-    side = 1 - along
+    depth = law.depth(passages * dose_of_passage(contact))
+    side = 1 if contact.direction.endswith("x") else 0
     across = (np.arange(grid.shape[side]) - 0.5 * (grid.shape[side] - 1)) * grid.spacing[side]
     return RollingWear(across, depth, float(depth.sum()) * grid.spacing[side] * circumference, passages)
+
+
+def dose_of_passage(contact: RollingContact) -> RealArray:
+    """(n,): dose ∫ p s dx in Pa m that points at each place across bear in one passage."""
+    along = 0 if contact.direction.endswith("x") else 1
+    slip = np.hypot(*contact.slip)
+    dose = (contact.normal.pressure * slip).sum(axis=along) * contact.normal.problem.grid.spacing[along]
+    return np.asarray(dose)
+
+
+def require_rolling_law(law: WearLaw) -> None:
+    """Refuse a ``law`` that has no meaning in rolling, with an InputError."""
+    require.instance(law, WearLaw, "law of wear of a rolling body", "Write archard(1e-15).")
+    if isinstance(law.factor, np.ndarray) or law.threshold_pressure:
+        raise InputError(f"law of wear of a rolling body must have one coefficient and no threshold, but is {law!r}.")

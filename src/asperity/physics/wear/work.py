@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -20,16 +21,28 @@ from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic
 from ...solids.layers import Body, Layered, materials_of
 from ...surfaces.characterise.heights import core, material_ratio_curve
-from .figures import BARE_PLOT, BEARING_PLOT, COURSE_PLOT, DEPTH_PLOT, SECTION_PLOTS, WORN_PLOT, WearPicture
+from .figures import (
+    BARE_PLOT,
+    BEARING_PLOT,
+    COURSE_PLOT,
+    DEPTH_PLOT,
+    SECTION_PLOTS,
+    STRESS_PLOT,
+    WORN_PLOT,
+    WearPicture,
+)
 from .fretting import fretted
 from .history import WearHistory
 from .law import Sides, WearLaw, of_layers
 from .march import WearSteps, check, worn
 from .part import SCALARS, Wears
+from .rolling_course import worn_by_rolling
 from .third_body import Debris
+from .work_stresses import EVEN, stress_rows, stress_table, stress_values, yielding_text
 
 KEPT_WAYS = (0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0)
-"""Shares of the way at which the section is kept, beside that at the start."""
+"""Shares of the way at which the section is kept, beside that at the start, where its end is known
+before."""
 
 ROWS = 9
 """Rows of the table of the course."""
@@ -42,7 +55,9 @@ class WearWork(WithFacts):
 
     def check(self, ask: Wears, problem: ContactProblem) -> None:
         """Refuse what cannot wear, and bodies none of which is known to."""
-        check(problem, MeanPressure(1.0), sides_of(ask, problem))
+        sides = check(problem, MeanPressure(1.0), sides_of(ask, problem))
+        if ask.rolls is not None:
+            _around(ask, sides)
 
     def course(self, ask: Wears, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """The same steps; refuses one that is not among them."""
@@ -51,18 +66,24 @@ class WearWork(WithFacts):
 
     def compute(self, ask: Wears, solved: Solved) -> Found:
         """Wear under the load that is asked for, from the surfaces as they are given."""
-        reached, table = solved.at(ask.settings.step), ask.settings
+        table = ask.settings
+        reached = solved.at(table.step if ask.rolls is None else "last")
         sides = sides_of(ask, solved.problem)
         with solved.stage("wear") as progress:
             history = _worn(ask, solved, sides, reached.result.control, progress)
         allowed = None if table.allowed_depth is None else float(table.allowed_depth)
-        across = _across(sides, solved.problem.grid.shape)
+        across = _across(ask, sides, solved.problem.grid.shape)
         values: dict[str, Any] = {**_numbers(history, allowed), **_fields(history, sides)}
         values |= _section(history, across=across)
+        values |= stress_values(ask, solved, history)
+        beyond = ask.rolls is not None or sides.body_track is not None or sides.counter_track is not None
+        values |= {"wear_mean_depth": math.nan} if beyond else {}  # the volume is that of a whole track or wheel
         values |= {f"course_{name}": column for name, column in history.values.items()}
         facts = {
             "where": reached.where,
             "fretting": ask.fretting,
+            "rolls": ask.rolls is not None,
+            "around": [] if ask.rolls is None else list(_around(ask, sides).values()),
             "debris": float(table.debris or 0.0),
             "shift": None if table.shift is None else float(table.shift),
             "law": table.law,
@@ -71,6 +92,7 @@ class WearWork(WithFacts):
             "thickness": [law.thickness for law in sides.laws if law.thickness > 0.0],
             "allowed": allowed,
             "across": across,
+            "criterion": "" if ask.stresses is None else ask.stresses.criterion.name,
             "stopped": table.until_bare and math.isfinite(history.breakthrough),
         }
         keys = tuple(dict.fromkeys((*self.citation_keys, *sides.citation_keys)))
@@ -82,6 +104,7 @@ class WearWork(WithFacts):
         plots = [WORN_PLOT] if min(solved.problem.grid.shape) > 1 else []
         plots += [BARE_PLOT] if shown.array("worn_bare").any() and plots else []
         plots += [*SECTION_PLOTS, DEPTH_PLOT, COURSE_PLOT, BEARING_PLOT]
+        plots += [STRESS_PLOT] if "wear_layer" in found.values else []
         return figures_by(plots, shown)
 
     def words(self, found: Found, solved: Solved) -> Words:
@@ -105,17 +128,22 @@ class WearWork(WithFacts):
             ("law of wear", "dissipated energy" if facts["law"] == "energy" else "Archard"),
         ]
         rows += [("runs along a track", names[name]) for name in facts["tracks"]]
+        for name, around in zip(facts["wears"], facts.get("around", ()), strict=False):
+            passages = float(values["wear_distance"]) / around
+            rows.append((f"points of the {names[name]} pass", f"{passages:.4g} times, once every {show(around, 'm')}"))
         rows += [("moves to and fro by", show(facts["shift"], "m"))] if facts["fretting"] else []
         rows += [("debris that stays", percent(facts["debris"]))] if facts["debris"] else []
-        for item in SCALARS:
-            value = float(values.get(item.name, math.nan))
-            if math.isfinite(value) and not _idle(item.name, facts):
-                rows.append((item.label, value_text(item, value)))
+        rows += _number_rows(values, facts)
+        rows += stress_rows(values, facts)
         holds, alarming = _holds(values, facts)
+        yielding, yields = yielding_text(values, facts)
         headline = [("worn volume", show(volume, "m**3", 3)), ("largest worn depth", show(depth, "m", 3))]
-        tables = (("Course of the wear", _course_table(values, facts)),)
-        remarks = (REMARK,) if facts["debris"] else (REMARK, GONE)
-        return Words(sentence, headline, rows, tables, remarks, alarming, holds)
+        stressed = stress_table(values, facts)
+        tables = [("Course of the wear", _course_table(values, facts))]
+        tables += [("Stresses and yielding as it wears", stressed)] if stressed.cells else []
+        remarks = (REMARK, *(() if facts["debris"] else (GONE,)), *((EVEN,) if stressed.cells else ()))
+        holds = " ".join(text for text in (holds, yielding) if text)
+        return Words(sentence, headline, rows, tuple(tables), remarks, alarming or yields, holds)
 
 
 # Who wears, and by which law.
@@ -159,8 +187,32 @@ def sides_of(ask: Wears, problem: ContactProblem) -> Sides:
                 f"wear.track_{name} must be left out where the {name.replace('_', ' ')} does not wear, but is given. "
                 f"Give its coefficient ({{wear.coefficient_{name}=1e-6mm^3/Nm}})."
             )
+    if ask.rolls is not None:
+        return Sides(laws["body"], laws["counter_body"])
     left = None if not table.debris else Debris(float(table.debris), float(table.debris_modulus or 0.0))
     return Sides(laws["body"], laws["counter_body"], tracks[0], tracks[1], left)
+
+
+def _around(ask: Wears, sides: Sides) -> dict[str, float]:
+    """Circumference in m of each body that wears as it rolls.
+
+    Raises
+    ------
+    InputError
+        If one is not known.
+    """
+    found = {}
+    for name, key in (("body", "body"), ("counter", "counter_body")):
+        if getattr(sides, name) is None:
+            continue
+        around = getattr(ask.settings, f"track_{key}")
+        if around is None:
+            raise InputError(
+                f"wear.track_{key} must be given where the {key.replace('_', ' ')} wears as it rolls, but is not: its "
+                f"points wear once in this length, the circumference of a wheel ({{wear.track_{key}=3m}})."
+            )
+        found[name] = float(around)
+    return found
 
 
 def _some_known(body: Body) -> bool:
@@ -191,9 +243,9 @@ def _worn(ask: Wears, solved: Solved, sides: Sides, control: Control, progress: 
     given: dict[str, Any] = {"order": table.order}
     if table.tolerance is not None:
         given["tolerance"] = float(table.tolerance)
-    shares: tuple[float, ...] = KEPT_WAYS
+    shares: tuple[float, ...] = (1.0,) if table.until_bare else KEPT_WAYS
     if table.steps is not None:
-        equal = max(number for number in range(1, len(KEPT_WAYS) + 1) if table.steps % number == 0)
+        equal = max(number for number in range(1, len(shares) + 1) if table.steps % number == 0)
         shares, given["number"] = tuple((n + 1) / equal for n in range(equal)), table.steps // equal
     options["steps"] = WearSteps(**given)
     if ask.fretting:
@@ -202,6 +254,20 @@ def _worn(ask: Wears, solved: Solved, sides: Sides, control: Control, progress: 
         options |= {} if table.quarter is None else {"quarter": table.quarter}
         cycles = sorted({max(1, round(share * (table.cycles or 1))) for share in shares})
         return fretted(problem.with_physics(friction=ask.friction), control, shift, cycles, sides, **options)
+    if ask.rolls is not None:
+        around = _around(ask, sides)
+        return worn_by_rolling(
+            problem.with_physics(friction=ask.rolls.law),
+            control,
+            ask.rolls.creepage,
+            float(table.distance or 0.0),
+            sides,
+            (around.get("body", 1.0), around.get("counter", 1.0)),
+            direction=ask.rolls.settings.direction,  # type: ignore[arg-type]
+            steps=replace(options["steps"], number=table.steps),
+            until_bare=table.until_bare,
+            on_failure="return",
+        )
     marks = [share * float(table.distance or 0.0) for share in shares]
     return worn(problem, control, marks, sides, until_bare=table.until_bare, **options)
 
@@ -274,8 +340,11 @@ def _fields(history: WearHistory, sides: Sides) -> dict[str, Any]:
     }
 
 
-def _across(sides: Sides, shape: tuple[int, int]) -> bool:
-    """Whether the section is along y: across a track, and where there is one point along x."""
+def _across(ask: Wears, sides: Sides, shape: tuple[int, int]) -> bool:
+    """Whether the section is along y: across a track or the direction of rolling, and where there
+    is one point along x."""
+    if ask.rolls is not None:
+        return ask.rolls.settings.direction.endswith("x")
     return shape[0] == 1 or not (sides.body_track is None and sides.counter_track is None)
 
 
@@ -309,7 +378,8 @@ def way_text(values: Mapping[str, Any], facts: Mapping[str, Any]) -> str:
     """How far it has slid, or how many cycles it has fretted."""
     if facts["fretting"]:
         return f"{float(values['wear_cycles']):.4g} cycles of ±{show(facts['shift'], 'm', 3)}"
-    return f"{show(float(values['wear_distance']), 'm', 3)} of sliding"
+    motion = "rolling" if facts.get("rolls") else "sliding"
+    return f"{show(float(values['wear_distance']), 'm', 3)} of {motion}"
 
 
 def _after(values: Mapping[str, Any], facts: Mapping[str, Any], name: str) -> str:
@@ -346,6 +416,21 @@ def _holds(values: Mapping[str, Any], facts: Mapping[str, Any]) -> tuple[str, bo
     return " ".join(texts), alarming
 
 
+def _number_rows(values: Mapping[str, Any], facts: Mapping[str, Any]) -> Rows:
+    """``SCALARS`` that are known, those before and after wear in one row."""
+    rows: Rows = []
+    for item in SCALARS:
+        value = float(values.get(item.name, math.nan))
+        if not math.isfinite(value) or _idle(item.name, facts) or item.name.endswith("_last"):
+            continue
+        text = value_text(item, value)
+        if item.name.endswith("_first"):
+            last = float(values.get(item.name.replace("_first", "_last"), math.nan))
+            text = f"{text} → {value_text(item, last)}" if math.isfinite(last) else text
+        rows.append((item.label.replace(" before wear", ", before → after wear"), text))
+    return rows
+
+
 def _idle(name: str, facts: Mapping[str, Any]) -> bool:
     """Whether the number of that ``name`` is of a body that does not wear, or of a coating that is
     not there."""
@@ -359,13 +444,18 @@ def _idle(name: str, facts: Mapping[str, Any]) -> bool:
 def _course_table(values: Mapping[str, Any], facts: Mapping[str, Any]) -> Table:
     """Some of the states, from the first contact on."""
     way = "cycles" if facts["fretting"] else "distance"
-    names = (way, "worn_volume", "max_depth", "area_fraction", "max_pressure", "bare_fraction")
+    names: tuple[str, ...] = (way, "worn_volume", "max_depth", "area_fraction", "max_pressure", "bare_fraction")
+    rolls = bool(facts.get("rolls"))
+    names = (*names, "tangential_force", "rolling_heat") if rolls else names
     columns = [np.atleast_1d(np.asarray(values[f"course_{name}"], float)) for name in names]
     cells = []
     for at in np.unique(np.linspace(0, len(columns[0]) - 1, ROWS).round().astype(int)):
-        along, volume, depth, area, peak, bare = (float(column[at]) for column in columns)
+        along, volume, depth, area, peak, bare, *rolling = (float(column[at]) for column in columns)
+        row: tuple[str, ...]
         first = f"{along:.4g}" if facts["fretting"] else show(along, "m", 3)
         row = (first, show(volume, "m**3", 3), show(depth, "m", 3), percent(area), show(peak, "Pa", 3))
-        cells.append((*row, percent(bare)) if facts["thickness"] else row)
-    head = (way.capitalize(), "Worn volume", "Largest depth", "Real area", "Maximum pressure")
-    return Table((*head, "Of it without coating") if facts["thickness"] else head, tuple(cells))
+        row = (*row, percent(bare)) if facts["thickness"] else row
+        cells.append((*row, *(show(value, unit, 3) for value, unit in zip(rolling, ("N", "J/m"), strict=False))))
+    head: tuple[str, ...] = (way.capitalize(), "Worn volume", "Largest depth", "Real area", "Maximum pressure")
+    head = (*head, "Of it without coating") if facts["thickness"] else head
+    return Table((*head, "Tangential force", "Heat") if rolls else head, tuple(cells))
