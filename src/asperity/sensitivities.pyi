@@ -1,12 +1,19 @@
 from .physics.sensitivities.answer import Sensitivities, SensitivityCertificate, TaylorTest
-from .physics.sensitivities.outputs import PressureNorm, SmoothArea
+from .physics.sensitivities.outputs import EdgeArea, PressureAt, PressureNorm, SmoothArea
 from .physics.sensitivities.sensitivities import sensitivities
+from .physics.sensitivities.subsurface import StressNorm
+from .physics.sensitivities.yielding import YieldLoad, yield_load
 
 __all__ = [
+    "EdgeArea",
+    "PressureAt",
     "PressureNorm",
     "Sensitivities",
     "SensitivityCertificate",
     "SmoothArea",
+    "StressNorm",
     "TaylorTest",
+    "YieldLoad",
     "sensitivities",
+    "yield_load",
 ]

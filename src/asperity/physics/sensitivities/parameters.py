@@ -60,7 +60,7 @@ def parameters(problem: ContactProblem) -> tuple[Parameter, ...]:
     return tuple(found)
 
 
-def _kept(body: Layered) -> list[int]:
+def kept_layers(body: Layered) -> list[int]:
     """Numbers in ``body`` of the layers of the reduced body, that of the base last."""
     there = [k for k, layer in enumerate(body.layers) if layer.thickness > 0.0]
     return [*there, len(body.layers)]
@@ -69,7 +69,7 @@ def _kept(body: Layered) -> list[int]:
 def _place(body: Elastic | Layered, constant: Constant) -> str:
     if isinstance(body, Elastic):
         return ""
-    number = _kept(body)[constant.layer]
+    number = kept_layers(body)[constant.layer]
     return f"layers[{number}]." if number < len(body.layers) else "base."
 
 
@@ -83,15 +83,16 @@ def changed(problem: ContactProblem, name: str, value: float | RealArray) -> Con
         return replace(problem, law=Hardness(value))
     parameter = {each.name: each for each in parameters(problem)}[name]
     body = getattr(problem, parameter.body)
-    other = _changed_body(body, parameter.constant, float(value))
+    other = changed_body(body, parameter.constant, float(value))
     return replace(problem, body=other) if parameter.body == "body" else replace(problem, counter_body=other)
 
 
-def _changed_body(body: Body, constant: Constant, value: float) -> Body:
+def changed_body(body: Body, constant: Constant, value: float) -> Elastic | Layered:
+    """``body`` with another ``value`` of one of its constants."""
     if isinstance(body, Elastic):
         return _changed_material(body, constant.kind, value)
     assert isinstance(body, Layered)
-    number, layers, base = _kept(body)[constant.layer], list(body.layers), body.base
+    number, layers, base = kept_layers(body)[constant.layer], list(body.layers), body.base
     if number == len(layers):
         assert isinstance(base, Elastic)
         base = _changed_material(base, constant.kind, value)
