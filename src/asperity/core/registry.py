@@ -152,6 +152,7 @@ PARTS = (
     "physics.sealing.part:Sealing",
     "physics.heating.part:Heating",
     "physics.wear.part:Wear",
+    "physics.sensitivities.part:Sensitivities",
     "physics.sealing.part_flow_factors:FlowFactors",
     "physics.dynamics.part:Dynamics",
     "physics.indentation.part:Indentation",
@@ -172,6 +173,7 @@ FORMS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "wear",
             "plastic_load",
             "deciding_waves",
+            "sensitivities",
         ),
         "Beside the contact": ("dynamics", "flow_factors", "indentation", "passes"),
     }

@@ -487,6 +487,7 @@ def test_schema_is_json_and_names_every_table() -> None:
         "sealing",
         "heating",
         "wear",
+        "sensitivities",
         "flow_factors",
     }
     assert schema["additionalProperties"] is False

@@ -189,10 +189,11 @@ class Sensitivities(Shown):
             If a constant of the body was not asked for, or there are others.
         """
         step = _ALONG * (abs(require.finite(value, "value of a parameter of a body")) or 1.0)
-        ends = [
-            {each.name: each.value for each in parameters(replace(self.problem, **{of: body(value + sign * step)}))}
-            for sign in (1.0, -1.0)
-        ]
+        ends = list[dict[str, float]]()
+        for sign in (1.0, -1.0):
+            other, problem = body(value + sign * step), self.problem
+            problem = replace(problem, body=other) if of == "body" else replace(problem, counter_body=other)
+            ends.append({each.name: each.value for each in parameters(problem)})
         own = [each.name for each in parameters(self.problem) if each.body == of]
         if any([name for name in end if name.startswith(f"{of}.")] != own for end in ends):
             raise InputError(

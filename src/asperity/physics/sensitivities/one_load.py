@@ -87,12 +87,26 @@ def require_differentiable(result: ContactResult) -> None:
             f"result of sensitivities must be a ContactResult, but is a {type(result).__name__}. Take a step of a "
             "history."
         )
-    problem, must = result.problem, "contact of sensitivities must be one under pressure alone, but has"
+    require_pressure_alone(result.problem)
+    if any(found is not None for found in result.couplings.values()):
+        raise InputError(f"{MUST} {', '.join(result.couplings)}. Leave it out.")
+    if result.total_plastic_work > result.plastic_work:
+        raise InputError(
+            "contact of sensitivities must be one load on the virgin surface, but was indented before: its answer "
+            "depends on the path. Solve it in one step."
+        )
+    if not result.contact.any():
+        raise InputError("contact of sensitivities must bear a load, but does not touch. Take another load ({load}).")
+
+
+MUST = "contact of sensitivities must be one under pressure alone, but has"
+
+
+def require_pressure_alone(problem: ContactProblem) -> None:
+    """Refuse a ``problem`` whose contacts have no derivatives here, with an ``InputError``."""
     if problem.physics:
         names = ", ".join(each.keyword.replace("_", " ") or "another physics" for each in problem.physics)
-        raise InputError(f"{must} {names}. Leave it out.")
-    if any(found is not None for found in result.couplings.values()):
-        raise InputError(f"{must} {', '.join(result.couplings)}. Leave it out.")
+        raise InputError(f"{MUST} {names}. Leave it out.")
     if relaxes(problem.body) or relaxes(problem.counter_body):
         raise InputError(
             "bodies of sensitivities must be elastic, but one is viscoelastic, whose answer depends on the past. Take "
@@ -103,13 +117,6 @@ def require_differentiable(result: ContactResult) -> None:
             f"law of sensitivities must be HardWall() or Hardness(value), but is {type(problem.law).__name__}, whose "
             "limit changes with the indentation. Take {hardness}."
         )
-    if result.total_plastic_work > result.plastic_work:
-        raise InputError(
-            "contact of sensitivities must be one load on the virgin surface, but was indented before: its answer "
-            "depends on the path. Solve it in one step."
-        )
-    if not result.contact.any():
-        raise InputError("contact of sensitivities must bear a load, but does not touch. Take another load ({load}).")
 
 
 def _held(result: ContactResult, held: Held | None) -> Held:
