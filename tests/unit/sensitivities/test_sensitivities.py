@@ -126,7 +126,7 @@ def test_small_problems_with_rational_answers(problem: float) -> None:
     operator = FreeOperator(_Inverse(), Grid((len(rows), 1), (1.0, 1.0)))  # type: ignore[arg-type]
     p = column["p"]
     fixed = FixedSet(operator, p > 0.0, "load")
-    adjoint, tangent = fixed.solve(p), fixed.solve(np.zeros(p.shape), 1.0)
+    adjoint, tangent = fixed.solve(p, 0.0, 1e-11), fixed.solve(np.zeros(p.shape), 1.0, 1e-11)
     assert adjoint.values == pytest.approx(column["dJ_dh"], abs=1e-9)
     assert adjoint.multiplier == pytest.approx(column["dJ_dP"][0, 0], rel=1e-9)
     assert tangent.values == pytest.approx(column["dp_dP"], abs=1e-9)
@@ -273,3 +273,17 @@ def test_a_step_of_a_history_is_a_contact_like_any_other() -> None:
     step, alone = sensitivities(path.last, PressureNorm(8.0)), sensitivities(solved(Periodic()), PressureNorm(8.0))
     for name, value in alone.relative.items():
         assert step.relative[name] == pytest.approx(value, rel=1e-6, abs=1e-8)
+
+
+@pytest.mark.parametrize("boundary", [Periodic(), Free()], ids=["periodic", "free"])
+def test_a_tolerance_is_the_error_of_the_derivatives(boundary: object) -> None:
+    result = solved(boundary)
+    close = sensitivities(result, PressureNorm(8.0))
+    wide = sensitivities(result, PressureNorm(8.0), tolerance=1e-4)
+    assert 1e-8 < wide.certificate.adjoint_residual <= 1e-4
+    assert wide.certificate.fft_pairs < close.certificate.fft_pairs
+    largest = max(map(abs, close.relative.values()))
+    for name, value in close.relative.items():
+        assert wide.relative[name] == pytest.approx(value, abs=1e-3 * largest)
+    with refused(InputError, "tolerance of sensitivities"):
+        sensitivities(result, tolerance=0.0)

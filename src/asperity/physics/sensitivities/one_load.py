@@ -22,7 +22,7 @@ from ...solids.layers import relaxes
 from .answer import Sensitivities, SensitivityCertificate
 from .outputs import Output, Slopes, State
 from .parameters import APPROACH, HARDNESS, HEIGHTS, LOAD, changed, chosen, parameters, responses
-from .system import FixedSet, Held, Polished, Solved, polished
+from .system import POLISHED, RESIDUAL, FixedSet, Held, Polished, Solved, polished
 
 AGAIN = 1e-9
 """Tolerance of the solves of a Taylor test."""
@@ -34,6 +34,7 @@ def at_one_load(
     to: str | Iterable[str] = "all",
     *,
     held: Held | None = None,
+    tolerance: float = RESIDUAL,
     engine: Engine | None = None,
 ) -> Sensitivities:
     """Derivatives of the output ``wanted``, as of ``sensitivities``.
@@ -47,13 +48,14 @@ def at_one_load(
     """
     require_differentiable(result)
     problem = result.problem
+    require.positive(tolerance, "tolerance of sensitivities")
     held = _held(result, held)
     operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
     known = parameters(problem)
     capped = isinstance(problem.law, Hardness)
     last = LOAD if held == "load" else APPROACH
     names = chosen(to, [HEIGHTS, last, *([HARDNESS] if capped else []), *(each.name for each in known)])
-    found = _Adjoint.of(result, operator, wanted, held)
+    found = _Adjoint.of(result, operator, wanted, held, tolerance)
     values, given, units = dict[str, float | RealArray](), dict[str, float | RealArray](), dict[str, str]()
     bodies = [each for each in known if each.name in names]
     of_bodies = dict(responses(operator, bodies, found.weight, found.state.pressure)) if bodies else {}
@@ -154,19 +156,19 @@ class _Adjoint:
     solved: Solved
 
     @classmethod
-    def of(cls, result: ContactResult, operator: Operator, wanted: Output, held: Held) -> _Adjoint:
+    def of(cls, result: ContactResult, operator: Operator, wanted: Output, held: Held, tolerance: float) -> _Adjoint:
         begun = posed(result, operator)
         fixed, total = FixedSet(operator, begun.free, held), None
         if held == "load":
             total = float(begun.pressure.sum())
             if isinstance(result.control, MeanPressure | Force):
                 total = mean_pressure(result.control, operator.grid) * begun.pressure.size
-        now = polished(begun, fixed, total)
+        now = polished(begun, fixed, total, max(POLISHED, 0.1 * tolerance))
         slopes = wanted.at(now.state)
         if held == "load" and slopes.given_load is not None:
             solved = Solved(np.zeros(begun.pressure.shape), slopes.given_load, 0.0, 0.0)
         else:
-            solved = fixed.solve(slopes.pressure, slopes.offset if held == "load" else 0.0)
+            solved = fixed.solve(slopes.pressure, slopes.offset if held == "load" else 0.0, tolerance)
         return cls(held, now, slopes, solved)
 
     @property

@@ -177,14 +177,15 @@ class PressureNorm:
 
     def at(self, state: State) -> Slopes:
         """Value and partial derivatives."""
-        p = np.maximum(state.pressure, 0.0)
+        touching = state.pressure > 0.0
+        p, slope = state.pressure[touching], np.zeros(state.pressure.shape)
+        if not p.size:
+            return Slopes(0.0, slope)
         largest = float(p.max())
-        if not largest:
-            return Slopes(0.0, np.zeros(p.shape))
-        share = p / largest
-        mean = float((share**self.m).mean())
-        slope = mean ** (1.0 / self.m - 1.0) / p.size * share ** (self.m - 1.0)
-        return Slopes(largest * mean ** (1.0 / self.m), np.where(p > 0.0, slope, 0.0))
+        powers = (p / largest) ** (self.m - 1.0)
+        mean = float((powers * p).sum()) / (largest * slope.size)
+        slope[touching] = mean ** (1.0 / self.m - 1.0) / slope.size * powers
+        return Slopes(largest * mean ** (1.0 / self.m), slope)
 
 
 @dataclass(frozen=True)

@@ -8,17 +8,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...contact.boundary import Periodic
+from ...contact.boundary import Free, Periodic
 from ...contact.law import Hardness
 from ...contact.operators import Operator
 from ...contact.operators.convolution import spectral_kernel
 from ...contact.problem import ContactProblem
-from ...core.arrays import RealArray
+from ...core.arrays import ComplexArray, RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, multiplicity, thread_count, wrapped
 from ...solids.compliance.halfspace import Compliance
-from ...solids.compliance.rates import UNITS, Constant, compliance_rates
+from ...solids.compliance.influence import patch_sums
+from ...solids.compliance.rates import UNITS, ComplianceRate, Constant, compliance_rates
 from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Body, Layer, Layered
 
@@ -147,9 +148,15 @@ def responses(
         whole[:nx, :ny] = field
         spectra.append(transform.forward(whole))
     density = (spectra[0].conj() * spectra[1]).real * (multiplicity(grid) / grid.n_points)
-    found: dict[str, float] = {}
     known: dict[int, float] = {}
-    for parameter in rates:
+    asked = list(rates)
+    layered = [each.rate for each in asked if isinstance(each.rate, ComplianceRate)]
+    if isinstance(operator.boundary, Free):
+        known = _by_distance(operator, layered, transform, spectra[0].conj() * spectra[1])
+    elif isinstance(operator.boundary, Periodic):
+        known = _by_wavenumber(operator, layered, density)
+    found: dict[str, float] = {}
+    for parameter in asked:
         rate = parameter.rate
         if id(rate) not in known:
             kernel = _kernel(operator, rate, transform)
@@ -159,6 +166,52 @@ def responses(
                 known[id(rate)] -= float(kernel[0, 0] * density[0, 0])
         found[parameter.name] = parameter.factor * known[id(rate)]
     return found
+
+
+def _by_wavenumber(operator: Operator, rates: Iterable[ComplianceRate], density: RealArray) -> dict[int, float]:
+    """The same of layered bodies on a periodic grid by the ``id`` of each rate, by the ``density``
+    over the half spectrum: gathered in the panels of the tables of the rates first."""
+    found: dict[int, float] = {}
+    q = operator.grid.wavenumber().ravel()[1:]
+    weights, mean = density.ravel()[1:] / q, float(density.flat[0])
+    for of_body in _by_body(rates):
+        tables = of_body[0].rates.tables(float(q.min()), float(q.max()))
+        moments = tables[0].moments(q, weights)
+        for rate in of_body:
+            found[id(rate)] = float((moments * tables[rate.number].coefficients).sum())
+            if not operator.zero_mean_mode:
+                found[id(rate)] += rate.mean_mode() * mean
+    return found
+
+
+def _by_distance(
+    operator: Operator, rates: Iterable[ComplianceRate], transform: RealTransform, product: ComplexArray
+) -> dict[int, float]:
+    """The same of layered bodies on a free boundary by the ``id`` of each rate, from the
+    correlation of the arrays, whose spectrum is ``product``: no rate needs influence coefficients
+    of its own beyond those near by."""
+    bodies = _by_body(rates)
+    if not bodies:
+        return {}
+    nx, ny = operator.grid.shape
+    whole = transform.backward(product)
+    weights = whole[:nx, :ny].copy()
+    weights[1:, :] += whole[:-nx:-1, :ny]
+    weights[:, 1:] += whole[:nx, :-ny:-1]
+    weights[1:, 1:] += whole[:-nx:-1, :-ny:-1]
+    found: dict[int, float] = {}
+    for of_body in bodies:
+        sums = patch_sums([rate.point() for rate in of_body], operator.grid, weights)
+        found |= {id(rate): value for rate, value in zip(of_body, sums, strict=True)}
+    return found
+
+
+def _by_body(rates: Iterable[ComplianceRate]) -> list[list[ComplianceRate]]:
+    """The ``rates`` of each body, each once."""
+    found: dict[int, dict[int, ComplianceRate]] = {}
+    for rate in rates:
+        found.setdefault(id(rate.rates), {})[id(rate)] = rate
+    return [list(each.values()) for each in found.values()]
 
 
 def _kernel(operator: Operator, rate: Compliance, transform: RealTransform) -> RealArray:

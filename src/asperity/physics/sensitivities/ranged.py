@@ -30,7 +30,7 @@ from .answer import Sensitivities, SensitivityCertificate
 from .one_load import AGAIN, at_one_load, require_differentiable, stepped_problem
 from .outputs import OUTPUTS, EdgeArea, Output, Slopes, State
 from .parameters import HEIGHTS, LOAD
-from .system import Held
+from .system import RESIDUAL, Held
 
 REACH = 0.15
 """Relative change of the load up to which others are solved. The secant of the compliance errs by
@@ -122,6 +122,7 @@ def over_loads(
     to: str | Iterable[str] = "all",
     *,
     held: Held | None = None,
+    tolerance: float = RESIDUAL,
     engine: Engine | None = None,
 ) -> Sensitivities:
     """Derivatives of an output from several loads about that of ``result``, the load being held.
@@ -143,7 +144,8 @@ def over_loads(
         raise InputError(f"contact must be partial for sensitivities of {wanted.name}, but is full.")
     problem, of, force, factors = result.problem, wanted.of(result), result.force, wanted.factors(result)
     several = [
-        at_one_load(each, of, to, held="load", engine=engine) for each in _solved(problem, factors, result, engine)
+        at_one_load(each, of, to, held="load", tolerance=tolerance, engine=engine)
+        for each in _solved(problem, factors, result, engine)
     ]
     value = wanted.value([each.value for each in several], force * float(np.ptp(factors)), problem)
     values = dict[str, float | RealArray]()

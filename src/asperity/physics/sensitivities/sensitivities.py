@@ -11,7 +11,7 @@ from .answer import Sensitivities
 from .one_load import at_one_load
 from .outputs import Output, output
 from .ranged import RANGED, over_loads
-from .system import Held
+from .system import RESIDUAL, Held
 
 
 def sensitivities(
@@ -20,6 +20,7 @@ def sensitivities(
     to: str | Iterable[str] = "all",
     *,
     held: Held | None = None,
+    tolerance: float = RESIDUAL,
     engine: Engine | None = None,
 ) -> Sensitivities:
     """Derivatives of a number of the contact ``result`` with respect to its parameters.
@@ -49,6 +50,8 @@ def sensitivities(
         ``"counter_body.poisson_ratio"``; ``"body"`` and ``"body.layers"`` take all that begin so.
     held
         ``"load"`` or ``"approach"``; by default what the control of the result prescribes.
+    tolerance
+        Relative residual of the linear system: about the relative error of the derivatives.
     engine
         Machine to compute on.
 
@@ -62,5 +65,5 @@ def sensitivities(
         If a linear solve does not converge.
     """
     if isinstance(of, str) and of in RANGED:
-        return over_loads(result, RANGED[of], to, held=held, engine=engine)
-    return at_one_load(result, output(of), to, held=held, engine=engine)
+        return over_loads(result, RANGED[of], to, held=held, tolerance=tolerance, engine=engine)
+    return at_one_load(result, output(of), to, held=held, tolerance=tolerance, engine=engine)

@@ -255,6 +255,14 @@ class SpectralFields(Fields):
         return PressureTransfers(made, panels(self.grid).points, base=isinstance(self._stack.base, Elastic))
 
     @cached_property
+    def _known(self) -> dict[int, Amplitudes]:
+        return {}
+
+    @cached_property
+    def _of_slopes(self) -> dict[int, list[ComplexArray]]:
+        return {}
+
+    @cached_property
     def _plain(self) -> PressureTransfers:
         return self._transfers()
 
@@ -264,7 +272,12 @@ class SpectralFields(Fields):
         return np.asarray((q > 0.0) & (q * self.planes[number].depth < _NEGLIGIBLE), dtype=float)
 
     def _amplitudes(self, number: int) -> Amplitudes:
-        """Amplitudes of the plane of this ``number`` at all wavenumbers."""
+        """Amplitudes of the plane of this ``number`` at all wavenumbers, which are kept."""
+        if number not in self._known:
+            self._known[number] = self._evaluated(number)
+        return self._known[number]
+
+    def _evaluated(self, number: int) -> Amplitudes:
         found = self._plain.to(Place.of(self.planes[number]))
         fitted, (panel, t) = panels(self.grid).fitted(np.stack([np.asarray(part) for part in found])), self._panel
         reached, values = self._reached(number), []
@@ -293,17 +306,30 @@ class SpectralFields(Fields):
             kernel[0, 0] = mean
             yield kernel
 
+    def transposed(self, number: int, slopes: StressTensor) -> RealArray:
+        """Derivative to the pressure (nx, ny): by the conjugate transfer functions."""
+        self._of_slopes[number] = found = [self.forward(part) for part in vars(slopes).values()]
+        xx, yy, zz, xy, xz, yz = found
+        (z, L, LL), nu = self._amplitudes(number), self.planes[number].region.material.poisson_ratio
+        c, s, cc, ss, cs = self._directions
+        mixed = cs * xy
+        total = LL * (cc * xx + ss * yy + mixed) + (nu * (LL - z)) * (ss * xx + cc * yy - mixed) - z * zz
+        total += (1j * L) * (c * xz + s * yz)
+        total[0, 0] = -nu / (1.0 - nu) * (xx[0, 0] + yy[0, 0]) - zz[0, 0]
+        return self.backward(total)
+
     def rates(self, slopes: Sequence[StressTensor], wanted: Sequence[Constant]) -> list[float]:
         """By the complex step through the recursion and the transpose of the interpolation."""
         if not wanted:
             return []
         stepped_transfers, known = self._transfers(rates=True), constants(self._stack)
         alpha, totals = panels(self.grid).points, np.zeros(len(known))
-        for number, (plane, slope) in enumerate(zip(self.planes, slopes, strict=True)):
+        for number, plane in enumerate(self.planes):
             nu, (z, _, LL) = plane.region.material.poisson_ratio, self._amplitudes(number)
             c, s, cc, ss, cs = self._directions
             by = multiplicity(self.grid) / self.grid.n_points
-            xx, yy, zz, xy, xz, yz = (by * self.forward(part).conj() * self.spectrum for part in vars(slope).values())
+            product = by * self.spectrum
+            xx, yy, zz, xy, xz, yz = (part.conj() * product for part in self._of_slopes[number])
             lateral = (ss * xx + cc * yy - cs * xy).real
             weights = (
                 -zz.real - nu * lateral,
