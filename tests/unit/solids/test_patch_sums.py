@@ -1,4 +1,4 @@
-"""Sums of weights and influence coefficients without the coefficients, and of weights and tables."""
+"""Sums of weights and influence coefficients without the latter, and of weights and tables."""
 
 from __future__ import annotations
 
