@@ -661,6 +661,10 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "sensitivities of a stiffness at held approach": lambda: asp.sensitivities.sensitivities(
         asp.solve(_hot_joint(), asp.MeanPressure(1e7)), "stiffness", held="approach"
     ),
+    "an uncertainty of nothing": lambda: asp.sensitivities.uncertainty(asp.solve(_hot_joint(), asp.MeanPressure(1e7))),
+    "two samples of an uncertainty": lambda: asp.sensitivities.uncertainty(
+        asp.solve(_hot_joint(), asp.MeanPressure(1e7)), "mean_gap", {"force": 0.1}, samples=2
+    ),
     "load at yield without a strength": lambda: asp.sensitivities.yield_load(
         asp.solve(asp.ContactProblem(rough((16, 16)), asp.Elastic(1e9, 0.3)), asp.MeanPressure(1e6)),
         asp.sensitivities.StressNorm(0, (1e-6,)),

@@ -153,6 +153,7 @@ PARTS = (
     "physics.heating.part:Heating",
     "physics.wear.part:Wear",
     "physics.sensitivities.part:Sensitivities",
+    "physics.sensitivities.part_uncertainty:Uncertainty",
     "physics.sealing.part_flow_factors:FlowFactors",
     "physics.dynamics.part:Dynamics",
     "physics.indentation.part:Indentation",
@@ -174,6 +175,7 @@ FORMS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "plastic_load",
             "deciding_waves",
             "sensitivities",
+            "uncertainty",
         ),
         "Beside the contact": ("dynamics", "flow_factors", "indentation", "passes"),
     }

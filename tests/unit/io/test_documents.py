@@ -488,6 +488,7 @@ def test_schema_is_json_and_names_every_table() -> None:
         "heating",
         "wear",
         "sensitivities",
+        "uncertainty",
         "flow_factors",
     }
     assert schema["additionalProperties"] is False

@@ -12,7 +12,7 @@ import numpy as np
 from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
 from ...plots.maps import Field, Look, map_of
-from ...plots.picture import BLACK, BLUE, VERMILLION, Plot, literal
+from ...plots.picture import BLACK, BLUE, SKY, VERMILLION, Plot, literal
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -83,3 +83,38 @@ def plots(shown: Decisive) -> tuple[Plot, ...]:
             )
         )
     return tuple(made)
+
+
+@dataclass(frozen=True, eq=False)
+class Contributing:
+    """What figures of error bars are drawn from: ``names`` of the sources in words, and the
+    deviation in % by each of them alone, of each number by its label."""
+
+    names: tuple[str, ...]
+    parts: dict[str, RealArray]
+
+
+def plot_parts(shown: Contributing, ax: Axes, label: str) -> Axes:
+    """Draw on ``ax`` bars of the contributions to the error bar of the number of that ``label``,
+    the largest on top, and all together."""
+    values = shown.parts[label]
+    order = np.argsort(-values, kind="stable")[:MOST][::-1]
+    rows = np.arange(order.size + 1)
+    whole = float(np.sqrt((values**2).sum()))
+    ax.barh(rows, [*values[order], whole], height=0.6, color=[*([SKY] * order.size), BLUE])
+    ax.set_yticks(rows, [*(literal(shown.names[k]) for k in order), "all together"])
+    ax.set_xlabel(f"standard deviation of the {label} (%)")
+    return ax
+
+
+def share_plots(shown: Contributing) -> tuple[Plot, ...]:
+    """Bars of each number."""
+    return tuple(
+        Plot(
+            f"uncertainty_{label.replace(' ', '_')}",
+            f"What makes the {label} unsure",
+            f"Relative standard deviation of the {label} by each source alone, and by all of them: squares add up.",
+            partial(plot_parts, label=label),
+        )
+        for label in shown.parts
+    )
