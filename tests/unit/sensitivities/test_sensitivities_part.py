@@ -46,12 +46,14 @@ def test_numbers_are_those_of_python_and_files_keep_them(tmp_path: Path) -> None
     names = [str(name) for name in values["sensitivity_parameter"]]
     assert {*names} == {*peak.relative, "strength"}
     for name, relative in peak.relative.items():
-        assert values["peak_pressure_sensitivity"][names.index(name)] == pytest.approx(relative, rel=1e-6, abs=1e-9)
+        assert values["sensitivity_peak_pressure"][names.index(name)] == pytest.approx(relative, rel=1e-6, abs=1e-9)
     assert values["sensitive_peak_pressure"] == pytest.approx(peak.value, rel=1e-9)
-    assert values["peak_pressure_by_load"] == pytest.approx(peak.relative["force"], rel=1e-6)
-    assert values["peak_pressure_by_thickness"] == pytest.approx(peak.relative["body.layers[0].thickness"], rel=1e-6)
+    assert values["sensitivity_peak_pressure_load"] == pytest.approx(peak.relative["force"], rel=1e-6)
+    assert values["sensitivity_peak_pressure_thickness"] == pytest.approx(
+        peak.relative["body.layers[0].thickness"], rel=1e-6
+    )
     np.testing.assert_allclose(values["sensitivity_map"], np.asarray(peak["heights"]) / peak.value, rtol=1e-5, atol=1)
-    assert values["stiffness_by_load"] == pytest.approx(
+    assert values["sensitivity_stiffness_load"] == pytest.approx(
         sensitivities(outcome.result, "stiffness", "force").relative["force"], rel=1e-6
     )
     save_outcome(outcome, tmp_path / "sensitive.nc")
@@ -86,16 +88,16 @@ def test_the_largest_load_of_a_path_is_the_one() -> None:
     control = {"path": {"mean_pressure": ["200 MPa", "0 Pa"], "steps": 3}}
     at_peak = asp.run(COATED | {"control": control}).values
     alone = asp.run(COATED).values
-    assert at_peak["approach_by_load"] == pytest.approx(alone["approach_by_load"], rel=1e-4)
+    assert at_peak["sensitivity_approach_load"] == pytest.approx(alone["sensitivity_approach_load"], rel=1e-4)
     first = asp.run(COATED | {"control": control, "sensitivities": {"step": 1}}).values
     assert first["sensitive_approach"] < at_peak["sensitive_approach"]
 
 
 def test_homogeneous_bodies_have_one_modulus() -> None:
     values = asp.run(COATED | {"body": "E=200GPa,nu=0.3,name=base"}).values
-    assert values["approach_by_modulus"] == values["approach_by_base_modulus"]
+    assert values["sensitivity_approach_modulus"] == values["sensitivity_approach_base_modulus"]
     # the load divided by the modulus decides
-    assert values["approach_by_modulus"] == pytest.approx(-values["approach_by_load"], rel=1e-6)
+    assert values["sensitivity_approach_modulus"] == pytest.approx(-values["sensitivity_approach_load"], rel=1e-6)
 
 
 REFUSED = {
@@ -126,7 +128,7 @@ def test_refused(name: str) -> None:
 
 def test_a_study_over_the_thickness(tmp_path: Path) -> None:
     """The thicker a stiff film is, the less its base decides."""
-    quantities = ["approach_by_base_modulus", "approach_by_modulus"]
+    quantities = ["sensitivity_approach_base_modulus", "sensitivity_approach_modulus"]
     axis = {"path": "body.layers.0.thickness", "values": ["0.2 um", "1 um", "5 um"]}
     made = plan(problem=COATED, axes=[axis], quantities=quantities)
     carry_out(made, tmp_path / "r.log", InProcess())
@@ -145,6 +147,8 @@ def test_the_command_asks_for_them(tmp_path: Path) -> None:
     assert "changes by" in " ".join(done.output.split())
     tree = asp.files.open_tree(tmp_path / "o" / "result.nc")
     single = asp.run(COATED).values
-    assert float(tree["sensitivities/approach_by_load"]) == pytest.approx(single["approach_by_load"], rel=1e-5)
+    assert float(tree["sensitivities/sensitivity_approach_load"]) == pytest.approx(
+        single["sensitivity_approach_load"], rel=1e-5
+    )
     drawn = {path.stem for path in (tmp_path / "o").rglob("*.png")}
     assert drawn >= {"sensitivities_approach", "sensitivities_mean_gap", "sensitivity_map"}

@@ -61,10 +61,10 @@ def test_numbers_are_those_of_python_and_files_keep_them(tmp_path: Path) -> None
     }
     noise = HeightNoise(0.2e-9, 1e-6)
     peak = uncertainty(outcome.result, PressureNorm(16.0), scatter, noise=noise, samples=6, seed=3)
-    assert values["peak_pressure_uncertainty"] == pytest.approx(peak.relative, rel=1e-6)
-    assert (values["peak_pressure_low"], values["peak_pressure_high"]) == pytest.approx(peak.interval, rel=1e-6)
-    assert values["peak_pressure_bias"] == pytest.approx(peak.bias, abs=1e-6)
-    shares = dict(zip(values["uncertainty_source"], values["peak_pressure_variance_share"], strict=True))
+    assert values["uncertainty_peak_pressure"] == pytest.approx(peak.relative, rel=1e-6)
+    assert (values["low_peak_pressure"], values["high_peak_pressure"]) == pytest.approx(peak.interval, rel=1e-6)
+    assert values["bias_peak_pressure"] == pytest.approx(peak.bias, abs=1e-6)
+    shares = dict(zip(values["uncertainty_source"], values["variance_share_peak_pressure"], strict=True))
     assert shares == pytest.approx(dict(peak.shares), rel=1e-5)
     save_outcome(outcome, tmp_path / "unsure.nc")
     again = load_outcome(tmp_path / "unsure.nc")
@@ -117,9 +117,9 @@ def test_refused(name: str) -> None:
 def test_a_study_over_the_load(tmp_path: Path) -> None:
     """At every load the mean gap is as unsure as the scale of heights allows."""
     axis = {"path": "control.mean_pressure", "values": ["50 MPa", "200 MPa"]}
-    made = plan(problem=ROUGH, axes=[axis], quantities=["approach_uncertainty"])
+    made = plan(problem=ROUGH, axes=[axis], quantities=["uncertainty_approach"])
     carry_out(made, tmp_path / "r.log", InProcess())
-    found = np.asarray(dataset(made, tmp_path / "r.log")["approach_uncertainty"]).ravel()
+    found = np.asarray(dataset(made, tmp_path / "r.log")["uncertainty_approach"]).ravel()
     assert np.all((found > 0.001) & (found < 0.1))
 
 
@@ -131,5 +131,5 @@ def test_the_command_asks_for_them(tmp_path: Path) -> None:
     assert done.exit_code == 0, done.output
     tree = asp.files.open_tree(tmp_path / "o" / "result.nc")
     single = asp.run(ROUGH).values
-    assert float(tree["uncertainty/approach_uncertainty"]) == pytest.approx(single["approach_uncertainty"], rel=1e-5)
+    assert float(tree["uncertainty/uncertainty_approach"]) == pytest.approx(single["uncertainty_approach"], rel=1e-5)
     assert "uncertainty_approach" in {path.stem for path in (tmp_path / "o").rglob("*.png")}

@@ -69,9 +69,9 @@ QUANTITIES = (
         for name, (unit, label) in OUTPUTS.items()
         for item in (
             Quantity(f"sensitive_{name}", unit, f"{label} whose sensitivities are found"),
-            Quantity(f"{name}_sensitivity", "1", f"relative sensitivity of the {label}", ("parameter",)),
+            Quantity(f"sensitivity_{name}", "1", f"relative sensitivity of the {label}", ("parameter",)),
             *(
-                Quantity(f"{name}_by_{key}", "1", f"relative sensitivity of the {label} to the {text}")
+                Quantity(f"sensitivity_{name}_{key}", "1", f"relative sensitivity of the {label} to the {text}")
                 for key, text in SHARES.items()
             ),
         )

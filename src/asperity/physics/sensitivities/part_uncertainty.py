@@ -67,14 +67,14 @@ QUANTITIES = (
         item
         for name, (unit, label) in ASKED.items()
         for item in (
-            Quantity(f"{name}_median", unit, f"{label} whose error bar is found"),
-            Quantity(f"{name}_uncertainty", "1", f"relative standard deviation of the {label}"),
-            Quantity(f"{name}_low", unit, f"lower end of 95 % of the {label}"),
-            Quantity(f"{name}_high", unit, f"upper end of 95 % of the {label}"),
-            Quantity(f"{name}_variance_share", "1", f"share of the variance of the {label}", ("source",)),
-            Quantity(f"{name}_bias", "1", f"relative change of the mean of the {label} in samples"),
-            Quantity(f"{name}_bias_error", "1", f"standard error of the bias of the {label}"),
-            Quantity(f"{name}_sampled_uncertainty", "1", f"relative standard deviation of the {label} in samples"),
+            Quantity(f"median_{name}", unit, f"{label} whose error bar is found"),
+            Quantity(f"uncertainty_{name}", "1", f"relative standard deviation of the {label}"),
+            Quantity(f"low_{name}", unit, f"lower end of 95 % of the {label}"),
+            Quantity(f"high_{name}", unit, f"upper end of 95 % of the {label}"),
+            Quantity(f"variance_share_{name}", "1", f"share of the variance of the {label}", ("source",)),
+            Quantity(f"bias_{name}", "1", f"relative change of the mean of the {label} in samples"),
+            Quantity(f"bias_error_{name}", "1", f"standard error of the bias of the {label}"),
+            Quantity(f"sampled_uncertainty_{name}", "1", f"relative standard deviation of the {label} in samples"),
         )
     ),
 )

@@ -98,10 +98,10 @@ class SensitivitiesWork(WithFacts):
         values["sensitivity_parameter"] = np.array(names, object)
         values["sensitivity_value"] = np.array([given.get(key, math.nan) for key in names])
         for name, found_of in relative.items():
-            values[f"{name}_sensitivity"] = np.array([found_of.get(key, math.nan) for key in names])
+            values[f"sensitivity_{name}"] = np.array([found_of.get(key, math.nan) for key in names])
             for key, parameter in _shares(solved.problem).items():
                 if parameter in found_of:
-                    values[f"{name}_by_{key}"] = found_of[parameter]
+                    values[f"sensitivity_{name}_{key}"] = found_of[parameter]
         facts = {
             "of": list(ask.of),
             "given": given,
@@ -250,7 +250,7 @@ def _findings(name: str, found: Sensitivities) -> list[Advice]:
 
 
 def _column(values: Any, name: str) -> RealArray:
-    return np.asarray(values[f"{name}_sensitivity"], dtype=float)
+    return np.asarray(values[f"sensitivity_{name}"], dtype=float)
 
 
 def _cells(key: str, relative: float, name: str, facts: Any) -> tuple[str, ...]:

@@ -90,9 +90,9 @@ class UncertaintyWork(WithFacts):
         said, headline, rows, tables = list[str](), list[tuple[str, str]](), Rows(), list[tuple[str, Table]]()
         for of in facts["of"]:
             unit, label = ASKED[of]
-            low, high, middle = (float(values[f"{of}_{end}"]) for end in ("low", "high", "median"))
-            relative = float(values[f"{of}_uncertainty"])
-            shares = np.asarray(values[f"{of}_variance_share"], dtype=float)
+            low, high, middle = (float(values[f"{end}_{of}"]) for end in ("low", "high", "median"))
+            relative = float(values[f"uncertainty_{of}"])
+            shares = np.asarray(values[f"variance_share_{of}"], dtype=float)
             order = np.argsort(-shares, kind="stable")
             amount = f"{show(middle, unit, 4)} ± {percent(relative, 2)}"
             said.append(
@@ -103,10 +103,10 @@ class UncertaintyWork(WithFacts):
             headline.append((label, amount))
             rows.append((f"{label}, 95 %", f"{show(low, unit, 4)} to {show(high, unit, 4)}"))
             if facts["samples"]:
-                bias = f"{percent(float(values[f'{of}_bias']), 2)} ± {percent(float(values[f'{of}_bias_error']), 2)}"
+                bias = f"{percent(float(values[f'bias_{of}']), 2)} ± {percent(float(values[f'bias_error_{of}']), 2)}"
                 rows.append((f"bias of the mean {label} in {facts['samples']} samples", bias))
                 rows.append(
-                    (f"deviation of the {label} in samples", percent(float(values[f"{of}_sampled_uncertainty"]), 2))
+                    (f"deviation of the {label} in samples", percent(float(values[f"sampled_uncertainty_{of}"]), 2))
                 )
             cells = tuple(
                 (
@@ -146,17 +146,17 @@ def _values(name: str, found: Uncertainty, sources: list[str]) -> dict[str, Any]
     """Values of one number by name."""
     low, high = found.interval
     values: dict[str, Any] = {
-        f"{name}_median": found.value,
-        f"{name}_uncertainty": found.relative,
-        f"{name}_low": low,
-        f"{name}_high": high,
-        f"{name}_variance_share": np.array([found.shares.get(source, 0.0) for source in sources]),
+        f"median_{name}": found.value,
+        f"uncertainty_{name}": found.relative,
+        f"low_{name}": low,
+        f"high_{name}": high,
+        f"variance_share_{name}": np.array([found.shares.get(source, 0.0) for source in sources]),
     }
     if found.sampled is not None:
         values |= {
-            f"{name}_bias": found.bias,
-            f"{name}_bias_error": found.sampled.mean_error / abs(found.value),
-            f"{name}_sampled_uncertainty": found.sampled.deviation / abs(found.value),
+            f"bias_{name}": found.bias,
+            f"bias_error_{name}": found.sampled.mean_error / abs(found.value),
+            f"sampled_uncertainty_{name}": found.sampled.deviation / abs(found.value),
         }
     return values
 
@@ -171,7 +171,7 @@ def _findings(name: str, found: Uncertainty) -> list[Advice]:
         )
         numbers = {"uncertainty": found.relative, "largest": LINEAR}
         remedy = "Ask for samples ({uncertainty.samples=50})."
-        return [Advice("warning", "linear uncertainty", fact, remedy, numbers, (f"{name}_uncertainty",))]
+        return [Advice("warning", "linear uncertainty", fact, remedy, numbers, (f"uncertainty_{name}",))]
     if found.sampled is not None and math.isfinite(found.bias):
         error = found.sampled.mean_error / abs(found.value)
         if abs(found.bias) > max(3.0 * error, 0.5 * found.relative):
@@ -180,5 +180,5 @@ def _findings(name: str, found: Uncertainty) -> list[Advice]:
                 f"as much as its uncertainty, {percent(found.relative, 2)}."
             )
             numbers = {"bias": found.bias, "uncertainty": found.relative}
-            return [Advice("warning", "bias by uncertain inputs", fact, "", numbers, (f"{name}_median",))]
+            return [Advice("warning", "bias by uncertain inputs", fact, "", numbers, (f"median_{name}",))]
     return []
