@@ -62,9 +62,11 @@ def test_numbers_are_those_of_python_and_files_keep_them(tmp_path: Path) -> None
     noise = HeightNoise(0.2e-9, 1e-6)
     peak = uncertainty(outcome.result, PressureNorm(16.0), scatter, noise=noise, samples=6, seed=3)
     assert values["uncertainty_peak_pressure"] == pytest.approx(peak.relative, rel=1e-6)
-    assert (values["low_peak_pressure"], values["high_peak_pressure"]) == pytest.approx(peak.interval, rel=1e-6)
-    assert values["bias_peak_pressure"] == pytest.approx(peak.bias, abs=1e-6)
-    shares = dict(zip(values["uncertainty_source"], values["variance_share_peak_pressure"], strict=True))
+    assert (values["uncertainty_low_peak_pressure"], values["uncertainty_high_peak_pressure"]) == pytest.approx(
+        peak.interval, rel=1e-6
+    )
+    assert values["uncertainty_bias_peak_pressure"] == pytest.approx(peak.bias, abs=1e-6)
+    shares = dict(zip(values["uncertainty_source"], values["uncertainty_share_peak_pressure"], strict=True))
     assert shares == pytest.approx(dict(peak.shares), rel=1e-5)
     save_outcome(outcome, tmp_path / "unsure.nc")
     again = load_outcome(tmp_path / "unsure.nc")

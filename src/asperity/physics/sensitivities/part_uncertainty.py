@@ -67,14 +67,14 @@ QUANTITIES = (
         item
         for name, (unit, label) in ASKED.items()
         for item in (
-            Quantity(f"median_{name}", unit, f"{label} whose error bar is found"),
+            Quantity(f"uncertainty_median_{name}", unit, f"{label} whose error bar is found"),
             Quantity(f"uncertainty_{name}", "1", f"relative standard deviation of the {label}"),
-            Quantity(f"low_{name}", unit, f"lower end of 95 % of the {label}"),
-            Quantity(f"high_{name}", unit, f"upper end of 95 % of the {label}"),
-            Quantity(f"variance_share_{name}", "1", f"share of the variance of the {label}", ("source",)),
-            Quantity(f"bias_{name}", "1", f"relative change of the mean of the {label} in samples"),
-            Quantity(f"bias_error_{name}", "1", f"standard error of the bias of the {label}"),
-            Quantity(f"sampled_uncertainty_{name}", "1", f"relative standard deviation of the {label} in samples"),
+            Quantity(f"uncertainty_low_{name}", unit, f"lower end of 95 % of the {label}"),
+            Quantity(f"uncertainty_high_{name}", unit, f"upper end of 95 % of the {label}"),
+            Quantity(f"uncertainty_share_{name}", "1", f"share of the variance of the {label}", ("source",)),
+            Quantity(f"uncertainty_bias_{name}", "1", f"relative change of the mean of the {label} in samples"),
+            Quantity(f"uncertainty_bias_error_{name}", "1", f"standard error of the bias of the {label}"),
+            Quantity(f"uncertainty_sampled_{name}", "1", f"relative standard deviation of the {label} in samples"),
         )
     ),
 )

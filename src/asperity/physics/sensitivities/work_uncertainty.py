@@ -90,9 +90,9 @@ class UncertaintyWork(WithFacts):
         said, headline, rows, tables = list[str](), list[tuple[str, str]](), Rows(), list[tuple[str, Table]]()
         for of in facts["of"]:
             unit, label = ASKED[of]
-            low, high, middle = (float(values[f"{end}_{of}"]) for end in ("low", "high", "median"))
+            low, high, middle = (float(values[f"uncertainty_{end}_{of}"]) for end in ("low", "high", "median"))
             relative = float(values[f"uncertainty_{of}"])
-            shares = np.asarray(values[f"variance_share_{of}"], dtype=float)
+            shares = np.asarray(values[f"uncertainty_share_{of}"], dtype=float)
             order = np.argsort(-shares, kind="stable")
             amount = f"{show(middle, unit, 4)} ± {percent(relative, 2)}"
             said.append(
@@ -103,10 +103,15 @@ class UncertaintyWork(WithFacts):
             headline.append((label, amount))
             rows.append((f"{label}, 95 %", f"{show(low, unit, 4)} to {show(high, unit, 4)}"))
             if facts["samples"]:
-                bias = f"{percent(float(values[f'bias_{of}']), 2)} ± {percent(float(values[f'bias_error_{of}']), 2)}"
-                rows.append((f"bias of the mean {label} in {facts['samples']} samples", bias))
+                bias, error = (float(values[f"uncertainty_{end}_{of}"]) for end in ("bias", "bias_error"))
                 rows.append(
-                    (f"deviation of the {label} in samples", percent(float(values[f"sampled_uncertainty_{of}"]), 2))
+                    (
+                        f"bias of the mean {label} in {facts['samples']} samples",
+                        f"{percent(bias, 2)} ± {percent(error, 2)}",
+                    )
+                )
+                rows.append(
+                    (f"deviation of the {label} in samples", percent(float(values[f"uncertainty_sampled_{of}"]), 2))
                 )
             cells = tuple(
                 (
@@ -146,17 +151,17 @@ def _values(name: str, found: Uncertainty, sources: list[str]) -> dict[str, Any]
     """Values of one number by name."""
     low, high = found.interval
     values: dict[str, Any] = {
-        f"median_{name}": found.value,
+        f"uncertainty_median_{name}": found.value,
         f"uncertainty_{name}": found.relative,
-        f"low_{name}": low,
-        f"high_{name}": high,
-        f"variance_share_{name}": np.array([found.shares.get(source, 0.0) for source in sources]),
+        f"uncertainty_low_{name}": low,
+        f"uncertainty_high_{name}": high,
+        f"uncertainty_share_{name}": np.array([found.shares.get(source, 0.0) for source in sources]),
     }
     if found.sampled is not None:
         values |= {
-            f"bias_{name}": found.bias,
-            f"bias_error_{name}": found.sampled.mean_error / abs(found.value),
-            f"sampled_uncertainty_{name}": found.sampled.deviation / abs(found.value),
+            f"uncertainty_bias_{name}": found.bias,
+            f"uncertainty_bias_error_{name}": found.sampled.mean_error / abs(found.value),
+            f"uncertainty_sampled_{name}": found.sampled.deviation / abs(found.value),
         }
     return values
 
@@ -180,5 +185,5 @@ def _findings(name: str, found: Uncertainty) -> list[Advice]:
                 f"as much as its uncertainty, {percent(found.relative, 2)}."
             )
             numbers = {"bias": found.bias, "uncertainty": found.relative}
-            return [Advice("warning", "bias by uncertain inputs", fact, "", numbers, (f"median_{name}",))]
+            return [Advice("warning", "bias by uncertain inputs", fact, "", numbers, (f"uncertainty_median_{name}",))]
     return []
