@@ -7,6 +7,7 @@ range.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 
 import numpy as np
@@ -14,7 +15,16 @@ import pytest
 from reference_data import Row, reference
 
 import asperity as asp
-from asperity.sensitivities import PressureNorm, sensitivities
+from asperity.contact.result import ContactResult
+from asperity.sensitivities import (
+    EdgeArea,
+    PressureAt,
+    PressureNorm,
+    Sensitivities,
+    StressNorm,
+    sensitivities,
+    yield_load,
+)
 from asperity.solvers import ActiveSet
 
 CLOSE = ActiveSet(tolerance=1e-8)
@@ -86,3 +96,125 @@ def test_coated_spheres(row: Row) -> None:
         one["ddelta_dR"] = float((np.asarray(of_offset["heights"]) * sphere).sum()) / R
         found.append(one)
     assert_exact(found, {name: number(row, name) for name in found[0]}, 0.02)
+
+
+NAMES = {
+    "force": "P",
+    "body.layers[0].thickness": "h",
+    "body.layers[0].youngs_modulus": "E1",
+    "body.layers[0].poisson_ratio": "nu1",
+    "body.base.youngs_modulus": "E2",
+    "body.base.poisson_ratio": "nu2",
+}
+
+
+def pressed(row: Row, n: int, reach: float) -> ContactResult:
+    """Sphere of a ``row`` on n² points, n odd, as wide as ``reach`` times the contact."""
+    E1, nu1, E2, nu2, h, R, P, a = (number(row, name) for name in ("E1", "nu1", "E2", "nu2", "h", "R", "P", "a"))
+    body = asp.Layered([asp.Layer(asp.Elastic(E1, nu1), h)], asp.Elastic(E2, nu2))
+    x = (np.arange(n) - 0.5 * (n - 1)) * (2.0 * reach * a / n)
+    sphere = -0.5 * np.add.outer(x**2, x**2) / R
+    problem = asp.ContactProblem(asp.Surface(sphere, x[1] - x[0]), body, boundary=asp.Free())
+    return asp.solve(problem, asp.Force(P), solver=CLOSE)
+
+
+def worst(row: Row, key: str, found: Sensitivities, factor: float = 1.0) -> float:
+    """Largest error of the derivatives θ dJ/dθ of ``key`` over the largest of them."""
+    errors, sizes = [], []
+    for name, symbol in NAMES.items():
+        exact = number(row, f"d{key}_d{symbol}")
+        sizes.append(abs(exact * number(row, symbol)))
+        errors.append(abs((float(found[name]) * factor - exact) * number(row, symbol)))
+    by_radius = -float((np.asarray(found["heights"]) * found.problem.profile()).sum()) * factor
+    errors.append(abs(by_radius - number(row, f"d{key}_dR") * number(row, "R")))
+    return max(errors) / max(sizes)
+
+
+SPHERES = reference("sensitivities/coated_sphere_sensitivities")
+
+
+@pytest.mark.parametrize("row", SPHERES, ids=lambda row: f"{row['case']:g}")
+def test_stiffness_area_and_pressure_of_coated_spheres(row: Row) -> None:
+    # the loads move the edge over a pixel and more; the mean over them leaves what is given here
+    result, a = pressed(row, 41, 1.3), number(row, "a")
+    stiffness, area = sensitivities(result, "stiffness"), sensitivities(result, "area")
+    middle = 20 * result.problem.grid.spacing[0]
+    center = sensitivities(result, PressureAt(middle, middle))
+    assert stiffness.value == pytest.approx(number(row, "stiffness"), rel=5e-3)
+    assert math.sqrt(area.value / math.pi) == pytest.approx(a, rel=0.01)
+    assert center.value == pytest.approx(number(row, "p0"), rel=1e-3)
+    assert abs(stiffness.euler_defect) < 1e-8
+    assert worst(row, "stiffness", stiffness) < 0.05
+    assert worst(row, "a", area, 1.0 / (2.0 * math.pi * a)) < 0.1
+    assert worst(row, "p0", center) < 0.04
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("row", SPHERES[:2], ids=lambda row: f"{row['case']:g}")
+def test_stiffness_and_area_converge_in_the_grid(row: Row) -> None:
+    factor = 1.0 / (2.0 * math.pi * number(row, "a"))
+    errors = []
+    for n in (41, 97):
+        results = [pressed(row, n, reach) for reach in (1.3, 1.32, 1.34)]
+        errors.append(
+            [
+                max(worst(row, "stiffness", sensitivities(each, "stiffness")) for each in results),
+                max(worst(row, "a", sensitivities(each, "area"), factor) for each in results),
+            ]
+        )
+    coarse, fine = errors  # those of the area scatter by as much as they are
+    assert fine[0] < 0.015
+    assert fine[1] < 0.08
+    assert fine[0] < coarse[0]
+
+
+@pytest.mark.parametrize(
+    "row", reference("sensitivities/westergaard_sensitivities")[:2], ids=lambda row: f"{row['case']:g}"
+)
+def test_area_and_stiffness_of_waves(row: Row) -> None:
+    n = 2001
+    wave = np.cos(2.0 * np.pi * np.arange(n) / n)[:, None]
+    problem = asp.ContactProblem(asp.Surface(0.01 * wave, 1.0 / n, 1.0), asp.Elastic(1.0, 0.0))
+    result = asp.solve(problem, asp.MeanPressure(number(row, "pbar")), solver=CLOSE)
+    area = sensitivities(result, "area", ("force", "body.youngs_modulus"))
+    # where 86 % touch, pressures rise within the edge so soon that their square bends
+    near_full = number(row, "pbar_over_pstar") > 0.5
+    error = 0.25 if near_full else 0.04
+    assert area.value == pytest.approx(number(row, "contact_fraction"), rel=0.01)
+    assert area["force"] == pytest.approx(number(row, "dfraction_dpbar"), rel=error)
+    assert area["body.youngs_modulus"] == pytest.approx(number(row, "dfraction_dEstar"), rel=error)
+    stiffness = sensitivities(result, "stiffness", ("force", "body.youngs_modulus"))
+    # the secant over loads from 0.85 to 1.15
+    assert stiffness.value == pytest.approx(number(row, "stiffness"), rel=0.02)
+    assert abs(stiffness.euler_defect) < 1e-8
+
+
+def test_load_at_yield_of_a_sphere() -> None:
+    # √(3 J2) is largest on the axis, 0.62 p0 at 0.48 a for ν = 0.3 (Johnson 1985, sec. 4.2), so
+    # that the load at yield goes with Y³ R²/E*²
+    R, E, nu, Y = 1.0, 1.0, 0.3, 0.01
+    p0 = Y / 0.6200
+    a = math.pi * p0 * R * (1.0 - nu * nu) / (2.0 * E)
+    exact = 2.0 / 3.0 * math.pi * a * a * p0
+    x = (np.arange(49) - 24.0) * (2.5 * a / 49.0)
+    sphere = -0.5 * np.add.outer(x**2, x**2) / R
+    problem = asp.ContactProblem(asp.Surface(sphere, x[1] - x[0]), asp.Elastic(E, nu), boundary=asp.Free())
+    result = asp.solve(problem, asp.Force(0.5 * exact), solver=CLOSE)
+    found = yield_load(result, StressNorm(0, tuple(np.linspace(0.3, 0.7, 9) * a), m=512.0), strength=Y)
+    assert found.load == pytest.approx(exact, rel=0.01)
+    assert found.relative["strength"] == pytest.approx(3.0, rel=0.03)
+    assert found.relative["body.youngs_modulus"] == pytest.approx(-2.0, rel=0.03)
+    assert found.values["strength"] == pytest.approx(found.relative["strength"] * found.load / Y, rel=1e-9)
+    R_share = -float((np.asarray(found.values["heights"]) * sphere).sum()) / found.load
+    assert R_share == pytest.approx(2.0, rel=0.05)
+    # what scales stresses and strength scales the load
+    assert found.relative["strength"] + found.relative["body.youngs_modulus"] == pytest.approx(1.0, rel=1e-3)
+
+
+def test_area_by_its_edge_at_one_load() -> None:
+    row = SPHERES[0]
+    result = pressed(row, 61, 1.3)
+    mean = result.force / (math.pi * number(row, "a") ** 2)
+    found = sensitivities(result, EdgeArea(0.75 * mean), "force")
+    assert math.sqrt(found.value / math.pi) == pytest.approx(number(row, "a"), rel=0.01)
+    assert float(found["force"]) / (2.0 * math.pi * number(row, "a")) == pytest.approx(number(row, "da_dP"), rel=0.3)

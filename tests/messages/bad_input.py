@@ -655,6 +655,27 @@ CALLS: Mapping[str, Callable[[], object]] = {
     ),
     "wear without an end": lambda: asp.wear.WearLaw(((1e-6, 1e-15),)),
     "wear by energy without friction": lambda: asp.wear.dissipated_energy(1e-15, 0.0),
+    "a parameter that a contact has not": lambda: asp.sensitivities.sensitivities(
+        asp.solve(_hot_joint(), asp.MeanPressure(1e7)), to="body.layers[0].thickness"
+    ),
+    "sensitivities of a count": lambda: asp.sensitivities.sensitivities(
+        asp.solve(_hot_joint(), asp.MeanPressure(1e7)), "n_spots"
+    ),
+    "sensitivities of a stiffness at held approach": lambda: asp.sensitivities.sensitivities(
+        asp.solve(_hot_joint(), asp.MeanPressure(1e7)), "stiffness", held="approach"
+    ),
+    "an uncertainty of nothing": lambda: asp.sensitivities.uncertainty(asp.solve(_hot_joint(), asp.MeanPressure(1e7))),
+    "two samples of an uncertainty": lambda: asp.sensitivities.uncertainty(
+        asp.solve(_hot_joint(), asp.MeanPressure(1e7)), "mean_gap", {"force": 0.1}, samples=2
+    ),
+    "load at yield without a strength": lambda: asp.sensitivities.yield_load(
+        asp.solve(asp.ContactProblem(rough((16, 16)), asp.Elastic(1e9, 0.3)), asp.MeanPressure(1e6)),
+        asp.sensitivities.StressNorm(0, (1e-6,)),
+    ),
+    "a norm of the stress above the surface": lambda: asp.sensitivities.StressNorm(0, (-0.1,)),
+    "a norm of the stress in no layer": lambda: asp.sensitivities.sensitivities(
+        asp.solve(_coated_joint(), asp.MeanPressure(1e7)), asp.sensitivities.StressNorm(5, (0.5,))
+    ),
     "wear over no distance": lambda: asp.wear.worn(_hot_joint(), asp.MeanPressure(1e7), 0.0, asp.wear.archard(1e-15)),
     "wear over distances that fall": lambda: asp.wear.worn(
         _hot_joint(), asp.MeanPressure(1e7), [2.0, 1.0], asp.wear.archard(1e-15)

@@ -113,6 +113,10 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
     },
     "a sliding contact beyond the limits": PLAIN
     | {"body": "mild steel", "heating": {"speed": "300 m/s", "friction": 0.5, "moving": "body"}},
+    "what decides a coated contact": PLAIN
+    | {"body": "E=300GPa,nu=0.2,Y=8GPa,name=film:1um/E=200GPa,nu=0.3,Y=1GPa,name=base", "sensitivities": {}},
+    "a contact whose heights are hardly known": PLAIN
+    | {"body": "E=200GPa,nu=0.3,Y=1GPa,name=base", "uncertainty": {"height_scale": 0.5, "moduli": 0.05}},
     "a coating that is worn through": WEARS | {"wear": {"distance": "4 m", "until_bare": True}},
     "a coating that lasts": WEARS | {"wear": {"distance": "0.1 m"}},
     "a base that stops yielding as it wears": WEARS

@@ -344,10 +344,21 @@ def test_the_example_of_flash_temperatures(capsys):
 
 def test_the_example_of_sensitivities(capsys):
     page, names = ROOT / "docs/how-to/sensitivities.md", {}
-    (code,) = blocks(page, "python")
+    code, at_yield = blocks(page, "python")
     exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
     assert abs(names["peak"].euler_defect) < 1e-6
     assert "body.layers[0].thickness" in capsys.readouterr().out
+    exec(compile(at_yield, page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    assert names["found"].relative["strength"] > 1.0
+
+
+def test_the_example_of_uncertainty(capsys):
+    page, names = ROOT / "docs/how-to/uncertainty.md", {}
+    (code,) = blocks(page, "python")
+    exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    low, high = names["found"].interval
+    assert low < names["found"].value < high
+    assert names["found"].sampled.gain > 5.0
 
 
 def test_the_examples_of_wear(capsys):

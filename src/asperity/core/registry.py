@@ -152,6 +152,8 @@ PARTS = (
     "physics.sealing.part:Sealing",
     "physics.heating.part:Heating",
     "physics.wear.part:Wear",
+    "physics.sensitivities.part:Sensitivities",
+    "physics.sensitivities.part_uncertainty:Uncertainty",
     "physics.sealing.part_flow_factors:FlowFactors",
     "physics.dynamics.part:Dynamics",
     "physics.indentation.part:Indentation",
@@ -172,6 +174,8 @@ FORMS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "wear",
             "plastic_load",
             "deciding_waves",
+            "sensitivities",
+            "uncertainty",
         ),
         "Beside the contact": ("dynamics", "flow_factors", "indentation", "passes"),
     }

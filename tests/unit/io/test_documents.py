@@ -487,6 +487,8 @@ def test_schema_is_json_and_names_every_table() -> None:
         "sealing",
         "heating",
         "wear",
+        "sensitivities",
+        "uncertainty",
         "flow_factors",
     }
     assert schema["additionalProperties"] is False

@@ -4,103 +4,33 @@ relations that must hold."""
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
 from reference_data import reference
 from refusals import refused
+from sensitivity_cases import CASES, COATED, MPA, NM, frozen_value, problem_of, rough, solved
 
 import asperity as asp
 from asperity.contact.boundary import Free, FreeLine, Periodic
 from asperity.contact.operators import prepare_operator
 from asperity.contact.operators.convolution import FreeOperator
 from asperity.contact.problem import ContactProblem
-from asperity.contact.result import ContactResult
 from asperity.core.arrays import RealArray
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.physics.sensitivities.outputs import OUTPUTS, Output, State, output
+from asperity.physics.sensitivities.outputs import OUTPUTS, Output, output
 from asperity.physics.sensitivities.parameters import changed, parameters
 from asperity.physics.sensitivities.system import FixedSet
 from asperity.sensitivities import PressureNorm, Sensitivities, SmoothArea, sensitivities
 from asperity.solvers import ActiveSet
 
-MPA, NM = 1e6, 1e-9
-COATED = asp.Layered(
-    [asp.Layer(asp.Elastic(300e9, 0.2), 60 * NM), asp.Layer(asp.Elastic(40e9, 0.35), 150 * NM)], asp.Elastic(110e9, 0.3)
+OUTPUTS_TESTED: tuple[Any, ...] = (
+    *OUTPUTS,
+    PressureNorm(8.0),
+    SmoothArea(300 * MPA),
 )
-OUTPUTS_TESTED: tuple[Any, ...] = (*OUTPUTS, PressureNorm(8.0), SmoothArea(300 * MPA))
-
-
-def rough(shape: tuple[int, int], seed: int = 3) -> RealArray:
-    """Smooth random heights (nx, ny) of rms 20 nm that repeat."""
-    noise = np.fft.fft2(np.random.default_rng(seed).standard_normal(shape))
-    q2 = np.add.outer(np.fft.fftfreq(shape[0]) ** 2 * shape[0] ** 2, np.fft.fftfreq(shape[1]) ** 2 * shape[1] ** 2)
-    heights = np.fft.ifft2(noise * np.exp(-q2 / 18.0)).real
-    return np.asarray(20 * NM * heights / heights.std())
-
-
-def problem_of(boundary: object, law: object = None, body: object = COATED) -> ContactProblem:
-    """Rough contact on 20 x 16 points, of one line on a line boundary."""
-    shape = (48, 1) if isinstance(boundary, FreeLine) else (20, 16)
-    surface = asp.Surface(rough(shape), 50 * NM)
-    law = {} if law is None else {"law": law}
-    return ContactProblem(surface, body, counter_body=asp.Elastic(200e9, 0.28), boundary=boundary, **law)  # type: ignore[arg-type]
-
-
-@cache
-def solved(boundary: object, capped: bool = False, control: object = asp.MeanPressure(400 * MPA)) -> ContactResult:
-    """Contact solved to where its pressure is that of its set."""
-    law = asp.Hardness(2.2e9) if capped else None
-    return asp.solve(problem_of(boundary, law), control, solver=ActiveSet(tolerance=1e-10))  # type: ignore[arg-type]
-
-
-def frozen(result: ContactResult, problem: ContactProblem, total: float | None, offset: float) -> State:
-    """Contact of ``problem`` on the set of ``result`` by its dense matrix; at the position
-    ``offset`` where no sum of pressures is given."""
-    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
-    K, h = operator.matrix(), problem.profile().ravel()
-    capped = result.plastic.ravel()
-    free = result.contact.ravel() & ~capped
-    p = np.where(capped, problem.law.pressure_cap(), 0.0) if capped.any() else np.zeros(h.size)
-    right = (h - K @ p)[free]
-    if total is None:
-        p[free] = np.linalg.solve(K[np.ix_(free, free)], right - offset)
-    else:
-        n, unit = int(free.sum()), np.abs(K).max()
-        matrix = np.block([[K[np.ix_(free, free)], np.full((n, 1), unit)], [np.full((1, n), unit), np.zeros((1, 1))]])
-        found = np.linalg.solve(matrix, np.append(right, unit * (total - p.sum())))
-        p[free], offset = found[:-1], unit * float(found[-1])
-    field, shape = p.reshape(h.size), problem.grid.shape
-    return State(
-        operator,
-        field.reshape(shape),
-        (K @ field).reshape(shape),
-        h.reshape(shape),
-        offset,
-        free.reshape(shape),
-        capped.reshape(shape),
-    )
-
-
-def frozen_value(result: ContactResult, problem: ContactProblem, of: Output, held: str, scale: float = 1.0) -> float:
-    """Output of ``problem`` on the set of ``result``, load or approach multiplied by ``scale``."""
-    if held == "load":
-        return of.at(frozen(result, problem, scale * result.mean_pressure * problem.grid.n_points, 0.0)).value
-    top = float(problem.profile().max())
-    return of.at(frozen(result, problem, None, top - scale * result.approach)).value
-
-
-CASES = {
-    "periodic": (Periodic(), False, asp.MeanPressure(400 * MPA)),
-    "free": (Free(), False, asp.MeanPressure(400 * MPA)),
-    "line": (FreeLine(), False, asp.MeanPressure(400 * MPA)),
-    "hardness": (Periodic(), True, asp.MeanPressure(400 * MPA)),
-    "free at an approach": (Free(), False, asp.Approach(38 * NM)),
-    "hardness at an approach": (Periodic(), True, asp.Approach(38 * NM)),
-}
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -196,7 +126,7 @@ def test_small_problems_with_rational_answers(problem: float) -> None:
     operator = FreeOperator(_Inverse(), Grid((len(rows), 1), (1.0, 1.0)))  # type: ignore[arg-type]
     p = column["p"]
     fixed = FixedSet(operator, p > 0.0, "load")
-    adjoint, tangent = fixed.solve(p), fixed.solve(np.zeros(p.shape), 1.0)
+    adjoint, tangent = fixed.solve(p, 0.0, 1e-11), fixed.solve(np.zeros(p.shape), 1.0, 1e-11)
     assert adjoint.values == pytest.approx(column["dJ_dh"], abs=1e-9)
     assert adjoint.multiplier == pytest.approx(column["dJ_dP"][0, 0], rel=1e-9)
     assert tangent.values == pytest.approx(column["dp_dP"], abs=1e-9)
@@ -343,3 +273,17 @@ def test_a_step_of_a_history_is_a_contact_like_any_other() -> None:
     step, alone = sensitivities(path.last, PressureNorm(8.0)), sensitivities(solved(Periodic()), PressureNorm(8.0))
     for name, value in alone.relative.items():
         assert step.relative[name] == pytest.approx(value, rel=1e-6, abs=1e-8)
+
+
+@pytest.mark.parametrize("boundary", [Periodic(), Free()], ids=["periodic", "free"])
+def test_a_tolerance_is_the_error_of_the_derivatives(boundary: object) -> None:
+    result = solved(boundary)
+    close = sensitivities(result, PressureNorm(8.0))
+    wide = sensitivities(result, PressureNorm(8.0), tolerance=1e-4)
+    assert 1e-8 < wide.certificate.adjoint_residual <= 1e-4
+    assert wide.certificate.fft_pairs < close.certificate.fft_pairs
+    largest = max(map(abs, close.relative.values()))
+    for name, value in close.relative.items():
+        assert wide.relative[name] == pytest.approx(value, abs=1e-3 * largest)
+    with refused(InputError, "tolerance of sensitivities"):
+        sensitivities(result, tolerance=0.0)

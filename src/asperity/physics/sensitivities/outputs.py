@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
 from ...contact.operators import Operator
+from ...contact.problem import ContactProblem
 from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
+from .parameters import Parameter
 
 
 class State(NamedTuple):
-    """A contact on its set: ``pressure`` (Pa), ``deflection`` by it (m) and ``profile`` (m),
-    arrays (nx, ny); the position ``offset`` (m); where the bodies touch without yielding
-    (``free``) and where they yield (``capped``)."""
+    """A contact of a ``problem`` on its set: ``pressure`` (Pa), ``deflection`` by it (m) and
+    ``profile`` (m), arrays (nx, ny); the position ``offset`` (m); where the bodies touch without
+    yielding (``free``) and where they yield (``capped``)."""
 
+    problem: ContactProblem
     operator: Operator
     pressure: RealArray
     deflection: RealArray
@@ -37,6 +40,10 @@ class State(NamedTuple):
     def gap(self) -> RealArray:
         """offset + deflection - profile, (nx, ny) in m."""
         return np.asarray(self.offset + self.deflection - self.profile)
+
+
+Direct: TypeAlias = Callable[[Sequence[Parameter]], Mapping[str, float]]
+"""Derivatives to parameters, by name."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +66,9 @@ class Slopes:
     given_load
         Derivative to the sum of pressures at given load where that is known without a linear
         solve, J then being stationary on the set; else None.
+    direct
+        Derivatives to constants of the bodies at given pressures, beside those by the deflection;
+        by name, zero for those left out. None for zero.
     """
 
     value: float
@@ -67,6 +77,7 @@ class Slopes:
     heights: RealArray | None = None
     deflected: RealArray | None = None
     given_load: float | None = None
+    direct: Direct | None = None
 
 
 class Output(Protocol):
@@ -166,14 +177,15 @@ class PressureNorm:
 
     def at(self, state: State) -> Slopes:
         """Value and partial derivatives."""
-        p = np.maximum(state.pressure, 0.0)
+        touching = state.pressure > 0.0
+        p, slope = state.pressure[touching], np.zeros(state.pressure.shape)
+        if not p.size:
+            return Slopes(0.0, slope)
         largest = float(p.max())
-        if not largest:
-            return Slopes(0.0, np.zeros(p.shape))
-        share = p / largest
-        mean = float((share**self.m).mean())
-        slope = mean ** (1.0 / self.m - 1.0) / p.size * share ** (self.m - 1.0)
-        return Slopes(largest * mean ** (1.0 / self.m), np.where(p > 0.0, slope, 0.0))
+        powers = (p / largest) ** (self.m - 1.0)
+        mean = float((powers * p).sum()) / (largest * slope.size)
+        slope[touching] = mean ** (1.0 / self.m - 1.0) / slope.size * powers
+        return Slopes(largest * mean ** (1.0 / self.m), slope)
 
 
 @dataclass(frozen=True)
@@ -209,20 +221,99 @@ class SmoothArea:
         return Slopes(value, pixel * self.pressure / (p + self.pressure) ** 2)
 
 
+@dataclass(frozen=True)
+class EdgeArea:
+    """Real contact area in m² whose derivative is that by the edge that moves, dA = ∮ 2 c/b ds (eq.
+    5 of the handbook of sensitivities): of pressures b √d and their rates c/√d on the fixed set at
+    the distance d within the edge.
+
+    Within the edge u = p² is linear in d, and the edge moves by 2 c/b = du/|∇u|. A smooth step of
+    u, zero at the edge and one from p = ``pressure`` on, takes the place of a step at the edge; it
+    leaves out what is linear in u. Of spheres 50 pixels in radius the area errs by 0.2 %, its
+    derivatives by 4 to 6 % as the edge lies between pixels; ``"area"`` of ``sensitivities`` takes
+    their mean over several loads.
+
+    InputError if the pressure is not positive.
+
+    Parameters
+    ----------
+    pressure
+        In Pa, about 3/4 of the mean real pressure. It does not change with the parameters.
+    """
+
+    pressure: float
+    unit: str = "m**2"
+    degree: float | None = None
+
+    def __post_init__(self) -> None:
+        require.positive(self.pressure, "pressure of an area by its edge (Pa)")
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return "edge_area"
+
+    def at(self, state: State) -> Slopes:
+        """Value and partial derivatives."""
+        p, pixel = np.maximum(state.pressure, 0.0), state.operator.grid.pixel_area
+        # the integral of 60 t (1 - t)² (1 - 2 t), whose mean is one and whose first moment is zero
+        t = np.minimum(p / self.pressure, 1.0) ** 2
+        step = t * t * (30.0 + t * (-80.0 + t * (75.0 - 24.0 * t)))
+        slope = 60.0 * t * (1.0 - t) ** 2 * (1.0 - 2.0 * t) * 2.0 * p / self.pressure**2
+        return Slopes(float(step.sum()) * pixel, pixel * slope)
+
+
+@dataclass(frozen=True)
+class PressureAt:
+    """Pressure at the point of the grid nearest to a place, in Pa, such as that in the middle of a
+    sphere.
+
+    Parameters
+    ----------
+    x, y
+        The place, in m from the first point of the grid.
+    """
+
+    x: float
+    y: float = 0.0
+    unit: str = "Pa"
+    degree: float | None = 1.0
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return "pressure_at"
+
+    def at(self, state: State) -> Slopes:
+        """Value and partial derivatives."""
+        grid, place, slope = state.operator.grid, list[int](), np.zeros(state.pressure.shape)
+        for at, many, spacing in zip((self.x, self.y), grid.shape, grid.spacing, strict=True):
+            length = spacing * (many - 1)
+            if not -0.5 * spacing <= require.finite(at, "place of a pressure (m)") <= length + 0.5 * spacing:
+                raise InputError(f"place of a pressure (m) must be from 0 to {length:g} on this grid, but is {at:g}.")
+            place.append(min(max(round(at / spacing), 0), many - 1))
+        slope[place[0], place[1]] = 1.0
+        return Slopes(float(state.pressure[place[0], place[1]]), slope)
+
+
+SEVERAL = ("area", "stiffness", "electrical_conductance", "thermal_conductance")
+"""Outputs that are found from several loads."""
+
+
 def output(of: str | Output) -> Output:
     """The output that is asked for, with an InputError where it has no derivative."""
     if not isinstance(of, str):
         if not all(hasattr(of, each) for each in ("name", "unit", "degree", "at")):
             raise InputError(
-                f"output of a sensitivity must be one of {', '.join(OUTPUTS)}, PressureNorm(m) or "
-                f"SmoothArea(pressure), but is {of!r}."
+                f"output of a sensitivity must be one of {', '.join((*OUTPUTS, *SEVERAL))}, or an output such as "
+                f"PressureNorm(m), but is {of!r}."
             )
         return of
     if of not in OUTPUTS:
-        hint = " It jumps from pixel to pixel: take SmoothArea(pressure)." if "area" in of else ""
+        hint = " It jumps from pixel to pixel: take area." if "area" in of else ""
         hint = hint or (" It has a kink wherever its place changes: take PressureNorm(16)." if "pressure" in of else "")
         raise InputError(
-            f"output of a sensitivity must be one of {', '.join(OUTPUTS)}, PressureNorm(m) or SmoothArea(pressure), "
-            f"but is {of!r}.{hint}"
+            f"output of a sensitivity must be one of {', '.join((*OUTPUTS, *SEVERAL))}, or an output such as "
+            f"PressureNorm(m), but is {of!r}.{hint}"
         )
     return OUTPUTS[of]

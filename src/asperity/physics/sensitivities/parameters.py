@@ -8,17 +8,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...contact.boundary import Periodic
+from ...contact.boundary import Free, Periodic
 from ...contact.law import Hardness
 from ...contact.operators import Operator
 from ...contact.operators.convolution import spectral_kernel
 from ...contact.problem import ContactProblem
-from ...core.arrays import RealArray
+from ...core.arrays import ComplexArray, RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, multiplicity, thread_count, wrapped
 from ...solids.compliance.halfspace import Compliance
-from ...solids.compliance.rates import UNITS, Constant, compliance_rates
+from ...solids.compliance.influence import patch_sums
+from ...solids.compliance.rates import UNITS, ComplianceRate, Constant, compliance_rates
 from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Body, Layer, Layered
 
@@ -60,7 +61,7 @@ def parameters(problem: ContactProblem) -> tuple[Parameter, ...]:
     return tuple(found)
 
 
-def _kept(body: Layered) -> list[int]:
+def kept_layers(body: Layered) -> list[int]:
     """Numbers in ``body`` of the layers of the reduced body, that of the base last."""
     there = [k for k, layer in enumerate(body.layers) if layer.thickness > 0.0]
     return [*there, len(body.layers)]
@@ -69,7 +70,7 @@ def _kept(body: Layered) -> list[int]:
 def _place(body: Elastic | Layered, constant: Constant) -> str:
     if isinstance(body, Elastic):
         return ""
-    number = _kept(body)[constant.layer]
+    number = kept_layers(body)[constant.layer]
     return f"layers[{number}]." if number < len(body.layers) else "base."
 
 
@@ -83,15 +84,16 @@ def changed(problem: ContactProblem, name: str, value: float | RealArray) -> Con
         return replace(problem, law=Hardness(value))
     parameter = {each.name: each for each in parameters(problem)}[name]
     body = getattr(problem, parameter.body)
-    other = _changed_body(body, parameter.constant, float(value))
+    other = changed_body(body, parameter.constant, float(value))
     return replace(problem, body=other) if parameter.body == "body" else replace(problem, counter_body=other)
 
 
-def _changed_body(body: Body, constant: Constant, value: float) -> Body:
+def changed_body(body: Body, constant: Constant, value: float) -> Elastic | Layered:
+    """``body`` with another ``value`` of one of its constants."""
     if isinstance(body, Elastic):
         return _changed_material(body, constant.kind, value)
     assert isinstance(body, Layered)
-    number, layers, base = _kept(body)[constant.layer], list(body.layers), body.base
+    number, layers, base = kept_layers(body)[constant.layer], list(body.layers), body.base
     if number == len(layers):
         assert isinstance(base, Elastic)
         base = _changed_material(base, constant.kind, value)
@@ -146,9 +148,15 @@ def responses(
         whole[:nx, :ny] = field
         spectra.append(transform.forward(whole))
     density = (spectra[0].conj() * spectra[1]).real * (multiplicity(grid) / grid.n_points)
-    found: dict[str, float] = {}
     known: dict[int, float] = {}
-    for parameter in rates:
+    asked = list(rates)
+    layered = [each.rate for each in asked if isinstance(each.rate, ComplianceRate)]
+    if isinstance(operator.boundary, Free):
+        known = _by_distance(operator, layered, transform, spectra[0].conj() * spectra[1])
+    elif isinstance(operator.boundary, Periodic):
+        known = _by_wavenumber(operator, layered, density)
+    found: dict[str, float] = {}
+    for parameter in asked:
         rate = parameter.rate
         if id(rate) not in known:
             kernel = _kernel(operator, rate, transform)
@@ -158,6 +166,52 @@ def responses(
                 known[id(rate)] -= float(kernel[0, 0] * density[0, 0])
         found[parameter.name] = parameter.factor * known[id(rate)]
     return found
+
+
+def _by_wavenumber(operator: Operator, rates: Iterable[ComplianceRate], density: RealArray) -> dict[int, float]:
+    """The same of layered bodies on a periodic grid by the ``id`` of each rate, by the ``density``
+    over the half spectrum: gathered in the panels of the tables of the rates first."""
+    found: dict[int, float] = {}
+    q = operator.grid.wavenumber().ravel()[1:]
+    weights, mean = density.ravel()[1:] / q, float(density.flat[0])
+    for of_body in _by_body(rates):
+        tables = of_body[0].rates.tables(float(q.min()), float(q.max()))
+        moments = tables[0].moments(q, weights)
+        for rate in of_body:
+            found[id(rate)] = float((moments * tables[rate.number].coefficients).sum())
+            if not operator.zero_mean_mode:
+                found[id(rate)] += rate.mean_mode() * mean
+    return found
+
+
+def _by_distance(
+    operator: Operator, rates: Iterable[ComplianceRate], transform: RealTransform, product: ComplexArray
+) -> dict[int, float]:
+    """The same of layered bodies on a free boundary by the ``id`` of each rate, from the
+    correlation of the arrays, whose spectrum is ``product``: no rate needs influence coefficients
+    of its own beyond those near by."""
+    bodies = _by_body(rates)
+    if not bodies:
+        return {}
+    nx, ny = operator.grid.shape
+    whole = transform.backward(product)
+    weights = whole[:nx, :ny].copy()
+    weights[1:, :] += whole[:-nx:-1, :ny]
+    weights[:, 1:] += whole[:nx, :-ny:-1]
+    weights[1:, 1:] += whole[:-nx:-1, :-ny:-1]
+    found: dict[int, float] = {}
+    for of_body in bodies:
+        sums = patch_sums([rate.point() for rate in of_body], operator.grid, weights)
+        found |= {id(rate): value for rate, value in zip(of_body, sums, strict=True)}
+    return found
+
+
+def _by_body(rates: Iterable[ComplianceRate]) -> list[list[ComplianceRate]]:
+    """The ``rates`` of each body, each once."""
+    found: dict[int, dict[int, ComplianceRate]] = {}
+    for rate in rates:
+        found.setdefault(id(rate.rates), {})[id(rate)] = rate
+    return [list(each.values()) for each in found.values()]
 
 
 def _kernel(operator: Operator, rate: Compliance, transform: RealTransform) -> RealArray:

@@ -1,31 +1,17 @@
-"""Derivatives of one number of a solved contact, by one linear solve on its set."""
+"""Derivatives of one number of a solved contact: by one linear solve on its set, or from several
+loads."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
-import numpy as np
-
-from ...contact.controls import Approach, Control, Force, MeanPressure, mean_pressure
-from ...contact.law import Hardness, HardWall
-from ...contact.operators import Operator, prepare_operator
-from ...contact.problem import ContactProblem
 from ...contact.result import ContactResult
-from ...contact.solve import solve
-from ...contact.solvers.active_set.solver import ActiveSet
-from ...core import require
-from ...core.arrays import RealArray
 from ...core.engine import Engine
-from ...core.errors import InputError
-from ...solids.layers import relaxes
-from .answer import Sensitivities, SensitivityCertificate
-from .outputs import Output, Slopes, State, output
-from .parameters import APPROACH, HARDNESS, HEIGHTS, LOAD, changed, chosen, parameters, responses
-from .system import FixedSet, Held, Polished, Solved, polished
-
-AGAIN = 1e-9
-"""Tolerance of the solves of a Taylor test."""
+from .answer import Sensitivities
+from .one_load import at_one_load
+from .outputs import Output, output
+from .ranged import RANGED, over_loads
+from .system import RESIDUAL, Held
 
 
 def sensitivities(
@@ -34,6 +20,7 @@ def sensitivities(
     to: str | Iterable[str] = "all",
     *,
     held: Held | None = None,
+    tolerance: float = RESIDUAL,
     engine: Engine | None = None,
 ) -> Sensitivities:
     """Derivatives of a number of the contact ``result`` with respect to its parameters.
@@ -52,7 +39,10 @@ def sensitivities(
         ``"approach"`` from first touch (m), ``"offset"`` of the bodies (m; without the highest
         point, from which the approach counts), ``"force"`` (N; at held approach),
         ``"mean_gap"`` (m), ``"elastic_energy"`` or ``"complementary_energy"`` p·u/2 - p·h (J),
-        ``PressureNorm(m)`` or ``SmoothArea(pressure)``; or an ``Output`` of one's own.
+        ``PressureNorm(m)``, ``PressureAt(x, y)``, ``StressNorm(layer, planes)``,
+        ``SmoothArea(pressure)`` or ``EdgeArea(pressure)``, or an ``Output`` of one's own; and, from
+        solves at several loads about that of the result, ``"area"`` (m²), ``"stiffness"`` dP/dδ
+        (N/m), ``"electrical_conductance"`` (S) and ``"thermal_conductance"`` (W/K).
     to
         ``"all"``, or names of parameters: ``"heights"`` of the composite surface (m), ``"force"``
         (N) or, where that is held, ``"approach"`` (m), ``"hardness"`` (Pa), constants of the bodies
@@ -60,6 +50,8 @@ def sensitivities(
         ``"counter_body.poisson_ratio"``; ``"body"`` and ``"body.layers"`` take all that begin so.
     held
         ``"load"`` or ``"approach"``; by default what the control of the result prescribes.
+    tolerance
+        Relative residual of the linear system: about the relative error of the derivatives.
     engine
         Machine to compute on.
 
@@ -72,206 +64,6 @@ def sensitivities(
     ConvergenceError
         If a linear solve does not converge.
     """
-    require_differentiable(result)
-    wanted, problem = output(of), result.problem
-    held = _held(result, held)
-    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-    known = parameters(problem)
-    capped = isinstance(problem.law, Hardness)
-    last = LOAD if held == "load" else APPROACH
-    names = chosen(to, [HEIGHTS, last, *([HARDNESS] if capped else []), *(each.name for each in known)])
-    found = _Adjoint.of(result, operator, wanted, held)
-    values, given, units = dict[str, float | RealArray](), dict[str, float | RealArray](), dict[str, str]()
-    bodies = [each for each in known if each.name in names]
-    of_bodies = responses(operator, bodies, found.weight, found.state.pressure) if bodies else {}
-    by_name = {each.name: each for each in known}
-    for name in names:
-        if name in of_bodies:
-            values[name], given[name], units[name] = of_bodies[name], by_name[name].value, by_name[name].unit
-        elif name == HEIGHTS:
-            values[name], given[name], units[name] = found.heights, float(found.state.profile.std()), "m"
-        elif name == HARDNESS:
-            cap = problem.law.pressure_cap()
-            slope = found.hardness
-            values[name] = slope if isinstance(cap, np.ndarray) else float(slope.sum())
-            given[name], units[name] = cap, "Pa"
-        else:
-            values[name] = found.of_load if held == "load" else found.of_approach
-            force = float(found.state.pressure.sum()) * problem.grid.pixel_area
-            approach = float(found.state.profile.max()) - found.state.offset
-            given[name], units[name] = (force, "N") if held == "load" else (approach, "m")
-    again = _Again(problem, found, wanted, held, engine)
-    return Sensitivities(problem, wanted, found.slopes.value, held, values, given, units, found.certificate, again)
-
-
-def require_differentiable(result: ContactResult) -> None:
-    """Refuse contacts that have no derivatives here, with an ``InputError``."""
-    if not isinstance(result, ContactResult):
-        raise InputError(
-            f"result of sensitivities must be a ContactResult, but is a {type(result).__name__}. Take a step of a "
-            "history."
-        )
-    problem, must = result.problem, "contact of sensitivities must be one under pressure alone, but has"
-    if problem.physics:
-        names = ", ".join(each.keyword.replace("_", " ") or "another physics" for each in problem.physics)
-        raise InputError(f"{must} {names}. Leave it out.")
-    if any(found is not None for found in result.couplings.values()):
-        raise InputError(f"{must} {', '.join(result.couplings)}. Leave it out.")
-    if relaxes(problem.body) or relaxes(problem.counter_body):
-        raise InputError(
-            "bodies of sensitivities must be elastic, but one is viscoelastic, whose answer depends on the past. Take "
-            "elastic bodies of the moduli at the time that matters."
-        )
-    if not isinstance(problem.law, HardWall | Hardness):
-        raise InputError(
-            f"law of sensitivities must be HardWall() or Hardness(value), but is {type(problem.law).__name__}, whose "
-            "limit changes with the indentation. Take {hardness}."
-        )
-    if result.total_plastic_work > result.plastic_work:
-        raise InputError(
-            "contact of sensitivities must be one load on the virgin surface, but was indented before: its answer "
-            "depends on the path. Solve it in one step."
-        )
-    if not result.contact.any():
-        raise InputError("contact of sensitivities must bear a load, but does not touch. Take another load ({load}).")
-
-
-def _held(result: ContactResult, held: Held | None) -> Held:
-    if held is not None:
-        require.one_of(held, ("load", "approach"), "held of sensitivities")
-        return held
-    if isinstance(result.control, MeanPressure | Force):
-        return "load"
-    if isinstance(result.control, Approach):
-        return "approach"
-    raise InputError(
-        f"held of sensitivities must be load or approach where the control is a {result.control.name}, but is None."
-    )
-
-
-def _posed(result: ContactResult, operator: Operator) -> State:
-    """State of ``result``, as its solver left it."""
-    profile, capped = result.problem.profile(), np.asarray(result.plastic)
-    pressure = np.asarray(result.pressure, dtype=float)
-    offset = result.offset
-    if isinstance(result.control, Approach):
-        offset = float(profile.max()) - result.control.value
-    return State(operator, pressure, operator.apply(pressure), profile, offset, result.contact & ~capped, capped)
-
-
-@dataclass(frozen=True, eq=False)
-class _Adjoint:
-    """Adjoint solution of one output of a contact."""
-
-    held: Held
-    polished: Polished
-    slopes: Slopes
-    solved: Solved
-
-    @classmethod
-    def of(cls, result: ContactResult, operator: Operator, wanted: Output, held: Held) -> _Adjoint:
-        begun = _posed(result, operator)
-        fixed, total = FixedSet(operator, begun.free, held), None
-        if held == "load":
-            total = float(begun.pressure.sum())
-            if isinstance(result.control, MeanPressure | Force):
-                total = mean_pressure(result.control, operator.grid) * begun.pressure.size
-        now = polished(begun, fixed, total)
-        slopes = wanted.at(now.state)
-        if held == "load" and slopes.given_load is not None:
-            solved = Solved(np.zeros(begun.pressure.shape), slopes.given_load, 0.0, 0.0)
-        else:
-            solved = fixed.solve(slopes.pressure, slopes.offset if held == "load" else 0.0)
-        return cls(held, now, slopes, solved)
-
-    @property
-    def state(self) -> State:
-        return self.polished.state
-
-    @property
-    def weight(self) -> RealArray:
-        """What dK p is multiplied with: (4) of the handbook of sensitivities."""
-        weight = -self.solved.values
-        return weight if self.slopes.deflected is None else weight + self.slopes.deflected
-
-    @property
-    def of_load(self) -> float:
-        """dJ/dP, per N."""
-        return self.solved.multiplier / self.state.operator.grid.pixel_area
-
-    @property
-    def of_approach(self) -> float:
-        """dJ/d(approach) at held approach: the position falls by as much."""
-        return float(self.solved.values.sum()) - self.slopes.offset
-
-    @property
-    def heights(self) -> RealArray:
-        """dJ/dh, (nx, ny); the highest point carries the zero of the approach with it."""
-        found = self.solved.values if self.slopes.heights is None else self.solved.values + self.slopes.heights
-        if self.held == "approach":
-            found = found.copy()
-            found.flat[int(np.argmax(self.state.profile))] -= self.of_approach
-        return found
-
-    @property
-    def hardness(self) -> RealArray:
-        """dJ/dH of each point, (nx, ny), zero where the pressure is below it."""
-        state = self.state
-        if not state.capped.any():
-            return np.zeros(state.capped.shape)
-        slope = self.slopes.pressure - self.solved.multiplier
-        if self.solved.values.any():
-            slope = slope - state.operator.apply(self.solved.values)
-        return np.where(state.capped, slope, 0.0)
-
-    @property
-    def certificate(self) -> SensitivityCertificate:
-        now, solved = self.polished, self.solved
-        residual = np.where(now.state.free, -now.before.gap, 0.0)
-        lack = float(now.state.pressure.sum() - now.before.pressure.sum()) if self.held == "load" else 0.0
-        error = float((solved.values * residual).sum()) + solved.multiplier * lack
-        return SensitivityCertificate(
-            adjoint_residual=solved.residual,
-            state_error=now.error,
-            output_error=error,
-            changed=now.changed,
-            fft_pairs=now.pairs + solved.pairs + now.state.operator.pairs_per_application,
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class _Again:
-    """Solves the contact with one parameter changed."""
-
-    problem: ContactProblem
-    found: _Adjoint
-    output: Output
-    held: Held
-    engine: Engine | None
-
-    def __call__(self, name: str, step: float) -> tuple[float, int]:
-        """Output with the parameter of that ``name`` changed by the relative ``step``, and the
-        number of points that change their state."""
-        state, problem = self.found.state, self.problem
-        grid, factor = problem.grid, 1.0 + step
-        if self.held == "load":
-            held = float(state.pressure.mean()) * (factor if name == LOAD else 1.0)
-            control: Control = MeanPressure(held)
-        else:
-            held = float(state.profile.max()) - state.offset
-            control = Approach(held * (factor if name == APPROACH else 1.0))
-        if name == HEIGHTS:
-            problem = changed(problem, name, step * state.profile)
-        elif name == HARDNESS:
-            problem = changed(problem, name, np.asarray(problem.law.pressure_cap()) * factor)
-        elif name not in (LOAD, APPROACH):
-            value = next(each.value for each in parameters(problem) if each.name == name)
-            problem = changed(problem, name, value * factor)
-        operator = prepare_operator(problem.compliance, grid, problem.boundary, engine=self.engine)
-        result = solve(problem, control, solver=ActiveSet(tolerance=AGAIN), operator=operator, on_failure="return")
-        begun = _posed(result, operator)
-        fixed = FixedSet(operator, begun.free, self.held)
-        total = float(result.control.value) * grid.n_points if self.held == "load" else None
-        now = polished(begun, fixed, total).state
-        turned = (now.free != state.free) | (now.capped != state.capped)
-        return self.output.at(now).value, int(turned.sum())
+    if isinstance(of, str) and of in RANGED:
+        return over_loads(result, RANGED[of], to, held=held, tolerance=tolerance, engine=engine)
+    return at_one_load(result, output(of), to, held=held, tolerance=tolerance, engine=engine)

@@ -20,9 +20,9 @@ Held: TypeAlias = Literal["load", "approach"]
 RESIDUAL = 1e-8
 """Residual of the linear system over its right-hand side that is asked for, as largest entries."""
 
-_MARGIN, _MOST_STEPS = 0.1, 500
-"""Reduction in the norm of conjugate gradients over that of the largest entry that is asked for;
-steps at most. At 256² points derivatives then have errors of 1e-9."""
+_MARGIN, _MOST_STEPS = 0.5, 500
+"""Reduction in the norm of conjugate gradients over that of the largest entry that is asked for,
+with which at most one step follows in vain; steps at most."""
 
 _REFINEMENTS = 1
 """Further solves for the residual that is left: usually there is none."""
@@ -127,18 +127,18 @@ class Polished(NamedTuple):
     pairs: float
 
 
-def polished(state: State, fixed: FixedSet, total: float | None) -> Polished:
+def polished(state: State, fixed: FixedSet, total: float | None, enough: float = POLISHED) -> Polished:
     """``state`` with its residual on the set solved for; ``total``: sum of all pressures where the
-    load is held."""
+    load is held; ``enough``: residual over the rms height, and lack of load over that, which need
+    no correction."""
     operator = fixed.operator
     lack = 0.0 if total is None else total - float(state.pressure.sum())
     residual = np.where(state.free, -state.gap, 0.0)
     scale = float(state.profile.std()) or float(np.abs(state.deflection).max()) or 1.0
     error, pairs, found = float(np.abs(residual).max()) / scale, 0.0, state
-    if error > POLISHED or (total is not None and abs(lack) > POLISHED * total):
+    if error > enough or (total is not None and abs(lack) > enough * total):
         unbalanced = abs(lack) / total if total else 0.0
-        enough = 0.1 * POLISHED / max(error, unbalanced)
-        solved = fixed.solve(residual, lack, enough)
+        solved = fixed.solve(residual, lack, 0.1 * enough / max(error, unbalanced))
         pressure = state.pressure + solved.values
         deflection = operator.apply(pressure)
         pairs = solved.pairs + operator.pairs_per_application

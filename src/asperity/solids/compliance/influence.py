@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -218,6 +218,32 @@ def patch_coefficients(kernel: PointKernel, grid: Grid, angular: Angular = ISOTR
     whole = np.hstack([(-over_x[:, :1] if angular.even_y else over_x[:, :1]), over_x])
     out[i, j] = np.diff(np.diff(whole, axis=0), axis=1)[i, j]
     return out
+
+
+def patch_sums(kernels: Sequence[PointKernel], grid: Grid, weights: RealArray) -> list[float]:
+    """Sum of ``weights`` (nx, ny) times the ``patch_coefficients`` of each of many isotropic
+    ``kernels``, all on the same distances; beyond ``FAR`` they cost nothing but their tables.
+    """
+    (nx, ny), (dx, dy) = grid.shape, grid.spacing
+    side = max(dx, dy)
+    x, y = grid.coordinates()
+    distant = np.hypot(x, y) >= FAR * side
+    across = np.where(distant, weights, 0.0)
+    # the averages of the far zone, transposed: from pixels to the nodes about them
+    nodes = np.zeros((nx + 4, ny + 4))
+    for j, w in enumerate(_AVERAGE):
+        for k, v in enumerate(_AVERAGE):
+            nodes[j : j + nx, k : k + ny] += w * v * across
+    r = np.hypot(np.arange(-2, nx + 2)[:, None] * dx, np.arange(-2, ny + 2)[None, :] * dy)
+    used = nodes != 0.0
+    r, nodes = r[used], nodes[used] * grid.pixel_area / (2.0 * np.pi)
+    moments = kernels[0].strength.moments(r, nodes / r) if r.size else np.zeros(())
+    near = _reach(FAR, side, dx, nx), _reach(FAR, side, dy, ny)
+    close, part = Grid(near, grid.spacing), np.where(distant, 0.0, weights)[: near[0], : near[1]]
+    return [
+        float((part * patch_coefficients(kernel, close)).sum() + (moments * kernel.strength.coefficients).sum())
+        for kernel in kernels
+    ]
 
 
 def _reach(limit: float, side: float, step: float, count: int) -> int:

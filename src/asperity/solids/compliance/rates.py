@@ -20,6 +20,7 @@ from ..layers import Layer, Layered
 from .halfspace import Compliance, HalfSpace
 from .influence import (
     Limits,
+    PointKernel,
     line_kernel,
     patch_coefficients,
     point_kernel,
@@ -211,8 +212,11 @@ class ComplianceRate:
     def influence(self, grid: Grid) -> RealArray:
         """Derivative of the displacement at pixel offsets (0…nx-1, 0…ny-1) from a pixel under unit
         pressure, (nx, ny)."""
-        limits = self.rates.limits(self.number)
-        return patch_coefficients(point_kernel(self.rates.samples[self.number], limits), grid)
+        return patch_coefficients(self.point(), grid)
+
+    def point(self) -> PointKernel:
+        """Derivative of the displacement at a distance from a point force."""
+        return point_kernel(self.rates.samples[self.number], self.rates.limits(self.number))
 
     def line_influence(self, grid: Grid, datum: float) -> RealArray:
         """The same for strips in plane strain, (nx, 1), relative to that at the ``datum`` (m)."""
