@@ -128,13 +128,13 @@ EXAMPLES = {
     "least-area": {"hardness": 8e9},
     "effective-hardness": {"coating": 15e9, "substrate": 9e9, "modulus_ratio": 0.7},
     "oliver-pharr": {"load": 1e-3, "depth": 1e-7, "stiffness": 4e4},
-    "roughness-window": {"E_star": 1.1e11, "hardness": 1e10, **FILM, "load": 0.1, "area": 1e-6},
-    "designed-caps": {"E_star": 1.1e11, "hardness": 1e10, **FILM, "load": 0.05},
     "statistical-meniscus": {**SUMMITS, **FILM, "skewness": 0.3, "kurtosis": 3.5},
     "kinetic-meniscus": {**SUMMITS, **FILM, "viscosity": 0.1, "hamaker_constant": 5e-20},
     "droplet-meniscus": {"radius": 1e-6, "surface_tension": 0.072, "contact_angle": 0.5, "immersion": 5e-9},
     "film-meniscus": {"radius": 1e-6, "surface_tension": 0.072, "contact_angle": 0.5, "height": 5e-9},
     "vapour-meniscus": {"surface_tension": 0.072, "molar_volume": 1.8e-5},
+    "roughness-window": {"E_star": 1.1e11, "hardness": 1e10, **FILM, "load": 0.1, "area": 1e-6},
+    "designed-caps": {"E_star": 1.1e11, "hardness": 1e10, **FILM, "load": 0.05},
     "plastic-joint": {"conductivity": 50.0, "rms_height": 1e-6, "slope": 0.1, "hardness": 8e9},
     "elastic-joint": {"conductivity": 50.0, "E_star": 1e11, "rms_height": 1e-6, "slope": 0.1},
     "mean-gap-joint": {"conductivity": 50.0, "E_star": 1e11, "rms_height": 1e-6},
@@ -234,8 +234,9 @@ RANGES = {
     "energy": (0.0, 1e4),
     "cycles": (0.0, 1e5),
     "scar_radius": (0.0, 1e-3),
+    "radius": (2e-6, 1e-4),
 }
 """Between what the arguments run."""
 
-GIVEN = {"load": 1e-6, "pressure": 1e6, "amplitude": 1e-5, "distance": 1e3}
+GIVEN = {"count": 100.0, "load": 1e-6, "pressure": 1e6, "amplitude": 1e-5, "distance": 1e3}
 """What is given beside them."""
