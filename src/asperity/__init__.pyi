@@ -74,6 +74,7 @@ from .solids.library import liquid as liquid
 from .solids.library import material as material
 from .solids.viscoelastic import Viscoelastic as Viscoelastic
 from .studies.compare import compare as compare
+from .studies.design.optimise import optimise as optimise
 from .studies.predict import predict as predict
 from .surfaces.characterise.summary import characterise as characterise
 from .surfaces.prepare.extent import periodised as periodised

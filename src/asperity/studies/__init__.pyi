@@ -6,17 +6,21 @@ from .campaign import Campaign, open_study, run_study
 from .collect import CampaignState
 from .compare import compare
 from .comparison import Comparison
+from .design.answer import Design
+from .design.optimise import optimise
 from .predict import Prediction, predict
 
 __all__ = [
     "Campaign",
     "CampaignState",
     "Comparison",
+    "Design",
     "Expected",
     "Outcome",
     "Prediction",
     "compare",
     "open_study",
+    "optimise",
     "predict",
     "press",
     "run",

@@ -113,10 +113,11 @@ class Plan:
                 path.append(StudyCase(tuple(at[i] for i in order), edits, self.key(edits)))
             yield tuple(path)
 
-    def key(self, edits: Sequence[Edit]) -> str:
-        """Digest of the content of a case: its problem, the quantities and the version of the
-        program."""
-        return content_digest([edited(self._content, edits, by_content=True), self._made_by])
+    def key(self, edits: Sequence[Edit], beside: str = "") -> str:
+        """Digest of the content of a case: its problem, the quantities, what is computed ``beside``
+        them, and the version of the program."""
+        made_by = [*self._made_by, beside] if beside else self._made_by
+        return content_digest([edited(self._content, edits, by_content=True), made_by])
 
     def coordinates(self, index: Sequence[int]) -> dict[str, Coordinate]:
         """Where the case at ``index`` lies, by name of axis and column."""

@@ -2,31 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from ...core.errors import InputError
 from ...core.settings import Settings
 from ...core.values import Count, Fraction, NonEmpty, Positive, Seed, Whole
+from .axis_values import Values
+from .design import DesignTable
 
 DEFAULT_QUANTITIES = ("area_fraction_corrected", "max_pressure", "approach", "mean_gap")
 """What is collected unless the document asks for something else."""
-
-Value: TypeAlias = str | int | float | tuple[int, int]
-"""One value of an axis: text with a unit where the document has one, a number, or the points of a
-grid."""
-
-
-def _values(value: object) -> object:
-    """A list of values, of which pairs may be lists, as tuples."""
-    if not isinstance(value, list | tuple):
-        return value
-    return tuple(tuple(item) if isinstance(item, list) else item for item in value)
-
-
-Values: TypeAlias = Annotated[tuple[Value, ...], BeforeValidator(_values)]
-"""Values of an axis in the order given."""
 
 
 class _Range(Settings):
@@ -203,7 +190,8 @@ class SensitivityTable(Settings):
 
 
 KINDS = ("monte_carlo", "convergence", "critical_thickness", "sensitivity")
-"""Tables of which at most one determines the kind of study; without any it is a sweep."""
+"""Tables of which at most one determines the kind of study; without any it is a sweep. A design has
+none of them but samples."""
 
 
 class StudyDocument(Settings):
@@ -224,10 +212,13 @@ class StudyDocument(Settings):
     convergence: ConvergenceTable | None = None
     critical_thickness: CriticalThicknessTable | None = None
     sensitivity: SensitivityTable | None = None
+    design: DesignTable | None = None
 
     @property
     def kind(self) -> str:
-        """Which of the ``KINDS`` it is, or ``"sweep"``."""
+        """Which of the ``KINDS`` it is, or ``"sweep"``, or ``"design"``."""
+        if self.design is not None:
+            return "design"
         return next((kind for kind in KINDS if getattr(self, kind) is not None), "sweep")
 
     @model_validator(mode="after")
@@ -237,7 +228,9 @@ class StudyDocument(Settings):
             raise InputError(
                 f"study must have at most one of the tables {', '.join(KINDS)}, but has {' and '.join(given)}."
             )
-        if not given and not self.axes:
+        if self.design is not None and any(kind != "monte_carlo" for kind in given):
+            raise InputError(f"study with the table design must leave out the table {given[0]}, but has it.")
+        if not given and not self.axes and self.design is None:
             raise InputError(f"study must have axes or one of the tables {', '.join(KINDS)}, but has none.")
         if not self.quantities:
             raise InputError("quantities must hold at least one name, such as area_fraction, but is empty.")
