@@ -38,6 +38,7 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "stress": "results",
         "compare": "compare",
         **dict.fromkeys(("run", "status", "collect"), "campaigns"),
+        "design": "design",
         "app": "app",
         "info": "info",
         "predict": "predict",

@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core.errors import FileFormatError, OutputError
+from ..core.errors import FileFormatError, InputError, OutputError
 from ..core.words import printable
 
 if TYPE_CHECKING:
@@ -172,6 +172,7 @@ def prepare_study(
     else:
         beside = Path(study).with_name(f"{Path(study).stem}-results")
         loaded, target = load_study(study), beside if folder is None else Path(folder)
+    _require_no_design(loaded)
     campaign = Campaign(target, loaded)
     _ = campaign.plan  # all mistakes are found before anything is written
     if target.is_dir() and any(target.iterdir()) and not (target / STUDY).is_file():
@@ -218,4 +219,14 @@ def open_study(folder: str | Path) -> Campaign:
         raise FileFormatError(
             f"results of a study must lie in a folder with {STUDY}, but {place} has none; run it first: asperity run."
         )
-    return Campaign(place, load_study(place / STUDY))
+    loaded = load_study(place / STUDY)
+    _require_no_design(loaded)
+    return Campaign(place, loaded)
+
+
+def _require_no_design(study: LoadedStudy) -> None:
+    if study.document.design is not None:
+        raise InputError(
+            "study must not be a design to be run or collected as cases, but has the table [design]; optimise it: "
+            "asperity design."
+        )

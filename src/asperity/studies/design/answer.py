@@ -97,7 +97,7 @@ class Margin:
 @dataclass(frozen=True)
 class Change:
     """What a change of one ``variable`` to ``value`` does: the ``objective``, and the ``margins``
-    of all constraints in their order; NaN where it cannot be computed."""
+    of all ``limits`` of the design; NaN where it cannot be computed."""
 
     variable: str
     value: Value
@@ -138,6 +138,8 @@ class Design:
         The recommended design: values, objective, margins of all constraints.
     second
         The second objective, where a front was asked for; else None.
+    limits
+        Names of the constraints, one over each of the cases but once.
     changes
         What a change of each number by ten percent, and each other choice, does.
     trials
@@ -163,6 +165,7 @@ class Design:
     variables: tuple[DesignVariable, ...]
     objective: Objective
     constraints: tuple[Margin, ...]
+    limits: tuple[str, ...]
     changes: tuple[Change, ...]
     trials: tuple[Trial, ...]
     history: tuple[tuple[float, float], ...]
@@ -239,10 +242,12 @@ class Design:
         goals = [one for one in (self.objective, self.second) if one is not None]
         yield "Objective", ("", "", "value"), [(one.label, one.goal, _text(one.value, one.unit)) for one in goals]
         if self.constraints:
-            headings = ("", "", "limit", "value", "margin", "", "1 % of the limit", "case")
-            yield "Constraints", headings, [_row(each) for each in self.constraints]
+            headings = ("", "", "limit", "value", "margin", "", "by 1 % of the limit", "case")
+            rows = [_row(each) for each in self.constraints]
+            kept = [n for n in range(len(headings)) if n < len(headings) - 2 or any(row[n] for row in rows)]
+            yield "Constraints", tuple(headings[n] for n in kept), [tuple(row[n] for n in kept) for row in rows]
         if self.changes:
-            names = tuple(f"margin of {each.label}" for each in self.constraints)
+            names = tuple(f"margin of {limit}" for limit in self.limits)
             yield "Changes", ("", "to", "objective", *names), [self._change(each) for each in self.changes]
         if self.front and self.second is not None:
             second = self.second

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ...core.errors import ConvergenceError, FileFormatError, OutputError
-from ...core.units import percent
+from ...core.errors import ConvergenceError, OutputError
+from ...core.units import percent, show
 from ...io.atomic import atomic_file
 from ..campaign import RECORDS, STUDY
 from ..documents import LoadedStudy, load_study, study_from_table, study_text
@@ -88,13 +88,13 @@ def optimise(
 def _loaded(study: str | Path | Mapping[str, Any], folder: str | Path | None) -> tuple[LoadedStudy, Path | None]:
     if isinstance(study, Mapping):
         return study_from_table(study, Path()), None if folder is None else Path(folder)
+    return load_study(study), folder_of(study, folder)
+
+
+def folder_of(study: str | Path, folder: str | Path | None = None) -> Path:
+    """Folder of the results of the document ``study``: ``folder``, or one beside it."""
     place = Path(study)
-    if place.is_dir():
-        if not (place / STUDY).is_file():
-            raise FileFormatError(f"folder of a design must hold {STUDY}, but {place} does not; give the document.")
-        return load_study(place / STUDY), place
-    beside = place.with_name(f"{place.stem}-results")
-    return load_study(place), beside if folder is None else Path(folder)
+    return place.with_name(f"{place.stem}-results") if folder is None else Path(folder)
 
 
 @contextmanager
@@ -139,6 +139,7 @@ def _design(search: Search) -> Design:
         variables=tuple(_variable(problem, site, number) for number in range(len(problem.variables))),
         objective=_objective(search, problem.objective, site),
         constraints=margins,
+        limits=tuple(f"{each.name} {each.goal}" for each in problem.constraints),
         changes=changes,
         trials=tuple(_trial(search, start) for start in trials),
         history=tuple(_history(search, aim, visited)),
@@ -274,6 +275,7 @@ def _unmet(search: Search, margins: Sequence[Margin]) -> Iterator[str]:
     for each in (each for each in margins if not each.met):
         tried = [search.evaluation.margin(by_name[each.name, each.goal], found) for found in seen]
         best = max((margin for margin in tried if math.isfinite(margin)), default=math.nan)
-        where = f" ({each.case})" if each.case else ""
-        alone = "no design that was computed meets it" if not best >= 0.0 else "it is met only where another is not"
-        yield f"{each.label} {each.goal} its limit{where} is missed by {percent(abs(each.margin))}, {alone}"
+        where = f", {each.case}," if each.case else ""
+        alone = "no design that was computed meets it" if not best >= 0.0 else "other designs meet it, but not the rest"
+        limit = show(each.limit, each.unit)
+        yield f"{each.label} {each.goal} {limit}{where} is missed by {percent(abs(each.margin))} ({alone})"

@@ -255,7 +255,7 @@ class Search:
             sites = [Site(choice, ()) for choice in choices]
             self.evaluation(sites)
             found = [self._ended(aim, site, converged=True, message="computed") for site in sites]
-            return sorted(found, key=self._rank)
+            return sorted(found, key=self.rank)
         shares = self.starts()
         self.met(self.problem.place(choices[0], shares[0]))  # which sets the scales
         single = len(self.problem.numbers) == 1 and aim.objective.variable == 0 and aim.constraints
@@ -266,14 +266,15 @@ class Search:
                 continue
             self.evaluation([self.problem.place(choice, first) for first in shares])
             found += [self.local(aim, choice, first, method) for first in shares]
-        found = sorted(found, key=self._rank)
+        found = sorted(found, key=self.rank)
         if found[0].violation > self.tolerance:
             first = self.problem.shares(found[0].site)
             found.insert(0, self.local(aim, found[0].site.choice, first, "slsqp", nearest=True))
-            found = sorted(found, key=self._rank)
+            found = sorted(found, key=self.rank)
         return found
 
-    def _rank(self, start: Start) -> tuple[float, float]:
+    def rank(self, start: Start) -> tuple[float, float]:
+        """What is smaller for the better one of two ends: the violation, and then the objective."""
         return (start.violation if start.violation > self.tolerance else 0.0, start.objective)
 
 
@@ -306,6 +307,23 @@ def _newton(
     return at, False
 
 
+PATIENCE = 12
+"""Designs that a search by gradients computes without a better one, a quarter as many more for each
+number, before it ends."""
+
+
+class _Enough(Exception):
+    """No better design has been met for long."""
+
+
+@dataclass(frozen=True)
+class _End:
+    """What stands for the answer of ``minimize`` where a search was ended."""
+
+    success: bool = False
+    message: str = "no better design for long"
+
+
 class _Local:
     """Functions of one search by gradients, of shares z and, with several rows of the objective or
     for the least violation, a bound t on them."""
@@ -314,6 +332,7 @@ class _Local:
         self.search, self.aim, self.choice, self.nearest = search, aim, choice, nearest
         self.n = len(search.problem.numbers)
         self.sites: list[Site] = []
+        self.rank, self.waited = (math.inf, math.inf), 0
         several = aim.objective.variable is None and aim.objective.over != "mean" and len(aim.objective.cases) > 1
         self.bound = nearest or several
 
@@ -337,27 +356,41 @@ class _Local:
                 limits = [optimize.NonlinearConstraint(self._limits, 0.0, np.inf, jac=self._limit_slopes)]
         name = "SLSQP" if method == "slsqp" else "trust-constr"
         minimize: Any = optimize.minimize
-        return minimize(
-            self._value, x0, jac=self._slope, bounds=bounds, constraints=limits, method=name, options=options
-        )
+        self.waited = 0
+        try:
+            return minimize(
+                self._value, x0, jac=self._slope, bounds=bounds, constraints=limits, method=name, options=options
+            )
+        except _Enough:
+            return _End()
 
     def best(self) -> Start | None:
         """The best design that was met."""
         ends = []
-        for site in dict.fromkeys(self.sites):
+        for site in self.sites:
             rows = self.search.rows(self.aim, self.search.evaluation([site])[0])
             ends.append(Start(site, float(rows.objective.max()), rows.violation, converged=False, message=""))
         if self.nearest:
             return min(ends, key=lambda end: (end.violation, end.objective), default=None)
-        return min(ends, key=self.search._rank, default=None)
+        return min(ends, key=self.search.rank, default=None)
 
     def _site(self, x: RealArray) -> Site:
         return self.search.problem.place(self.choice, x[: self.n])
 
     def _rows(self, x: RealArray) -> Rows:
         site = self._site(x)
-        self.sites.append(site)
-        return self.search.rows(self.aim, self.search.met(site))
+        rows = self.search.rows(self.aim, self.search.met(site))
+        if site not in self.sites:
+            self.sites.append(site)
+            self.waited += 1
+            end = Start(site, float(rows.objective.max()), rows.violation, converged=False, message="")
+            rank = (end.violation, end.objective) if self.nearest else self.search.rank(end)
+            room = 0.1 * self.search.tolerance
+            if rank[0] < self.rank[0] - room or (rank[0] <= self.rank[0] and rank[1] < self.rank[1] - room):
+                self.rank, self.waited = rank, 0
+            if self.waited > PATIENCE * (1.0 + 0.25 * self.n):
+                raise _Enough
+        return rows
 
     def _value(self, x: RealArray) -> float:
         return float(x[-1]) if self.bound else float(self._rows(x).objective[0])
