@@ -29,7 +29,7 @@ def design_figures(design: Design) -> Iterator[Figure]:
         "history", "Search", text, lambda ax: plot_history(history, missed <= tolerance, ax, larger=larger)
     )
     if design.constraints:
-        names = [f"{each.label} {each.goal}" + (f", {each.case}" if each.case else "") for each in design.constraints]
+        names = [each.words for each in design.constraints]
         margins = np.array([each.margin for each in design.constraints])
         text = "How far each number is within its limit at the recommended design, as a share of the limit."
         yield curve_figure("margins", "Margins", text, lambda ax: plot_margins(names, margins, ax))

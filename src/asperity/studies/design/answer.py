@@ -93,6 +93,11 @@ class Margin:
     case: str = ""
     price: float = math.nan
 
+    @property
+    def words(self) -> str:
+        """The constraint in words, with its case."""
+        return f"{self.label} {self.goal} {show(self.limit, self.unit)}" + (f", {self.case}" if self.case else "")
+
 
 @dataclass(frozen=True)
 class Change:

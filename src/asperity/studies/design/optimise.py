@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...core.errors import ConvergenceError, OutputError
-from ...core.units import percent, show
+from ...core.units import percent
 from ...io.atomic import atomic_file
 from ..campaign import RECORDS, STUDY
 from ..documents import LoadedStudy, load_study, study_from_table, study_text
@@ -275,7 +275,5 @@ def _unmet(search: Search, margins: Sequence[Margin]) -> Iterator[str]:
     for each in (each for each in margins if not each.met):
         tried = [search.evaluation.margin(by_name[each.name, each.goal], found) for found in seen]
         best = max((margin for margin in tried if math.isfinite(margin)), default=math.nan)
-        where = f", {each.case}," if each.case else ""
         alone = "no design that was computed meets it" if not best >= 0.0 else "other designs meet it, but not the rest"
-        limit = show(each.limit, each.unit)
-        yield f"{each.label} {each.goal} {limit}{where} is missed by {percent(abs(each.margin))} ({alone})"
+        yield f"{each.words} is missed by {percent(abs(each.margin))} ({alone})"

@@ -351,7 +351,9 @@ class _Local:
             options["ftol"] = table.tolerance
             limits = [{"type": "ineq", "fun": self._limits, "jac": self._limit_slopes}] if count else ()
         else:
-            options |= {"gtol": table.tolerance, "xtol": table.tolerance}
+            # with the usual barrier of 0.1 it ends that far from a limit or bound
+            options |= dict.fromkeys(("initial_barrier_parameter", "initial_barrier_tolerance"), 0.1 * table.tolerance)
+            options |= {"gtol": 0.1 * table.tolerance, "xtol": table.tolerance}
             if count:
                 limits = [optimize.NonlinearConstraint(self._limits, 0.0, np.inf, jac=self._limit_slopes)]
         name = "SLSQP" if method == "slsqp" else "trust-constr"
