@@ -255,20 +255,14 @@ class Design:
             names = tuple(f"margin of {limit}" for limit in self.limits)
             yield "Changes", ("", "to", "objective", *names), [self._change(each) for each in self.changes]
         if self.front and self.second is not None:
-            second = self.second
-            names = tuple(each.name for each in self.variables)
-            yield (
-                "Front",
-                (self.objective.label, second.label, *names),
-                [
-                    (
-                        _text(point.objective, self.objective.unit),
-                        _text(point.second, second.unit),
-                        *(_text(v, each.unit) for v, each in zip(point.values, self.variables, strict=True)),
-                    )
-                    for point in self.front
-                ],
-            )
+            second, front = self.second, self.front
+            shown = {self.objective.name, second.name}
+            others = [n for n, each in enumerate(self.variables) if each.name not in shown]
+            columns = (self.objective.label, second.label, *(self.variables[n].name for n in others))
+            texts = [[_text(one.objective, self.objective.unit), _text(one.second, second.unit)] for one in front]
+            for row, point in zip(texts, front, strict=True):
+                row += [_text(point.values[n], self.variables[n].unit) for n in others]
+            yield "Front", columns, [tuple(row) for row in texts]
 
     def _change(self, change: Change) -> tuple[str, ...]:
         unit = next(each.unit for each in self.variables if each.name == change.variable)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -171,19 +171,15 @@ class Search:
         trust region; ``nearest`` for the least violation of the limits instead of the best
         objective."""
         local = _Local(self, aim, choice, nearest)
-        outcome = local.run(first, method)
-        best = local.best()
-        again = None if outcome.success or best is None else local.run(self.problem.shares(best.site), method)
-        end = local.best()
-        assert best is not None
-        assert end is not None
-        converged = bool(outcome.success)
-        message = str(outcome.message)
-        if again is not None:
-            gain = (best.violation - end.violation) if nearest or end.violation else (best.objective - end.objective)
-            converged = bool(again.success) or gain <= self.tolerance
-            message = "no better design within the tolerance" if converged and not again.success else str(again.message)
-        return Start(end.site, end.objective, end.violation, converged, message)
+        outcome, best = local.run(first, method), local.best()
+        for _ in range(AGAIN):
+            outcome, end = local.run(self.problem.shares(best.site), method), local.best()
+            ranks = [(one.violation, one.objective) if nearest else self.rank(one) for one in (best, end)]
+            gain = ranks[0][0] - ranks[1][0] or ranks[0][1] - ranks[1][1]
+            best = end
+            if gain <= self.tolerance:
+                return replace(best, converged=True, message="no better design within the tolerance")
+        return replace(best, converged=False, message=str(outcome.message))
 
     # One number, and a limit that decides about it.
 
@@ -307,6 +303,9 @@ def _newton(
     return at, False
 
 
+AGAIN = 4
+"""Searches that begin again at the best design so far, until none gains more than the tolerance."""
+
 PATIENCE = 12
 """Designs that a search by gradients computes without a better one, a quarter as many more for each
 number, before it ends."""
@@ -366,15 +365,15 @@ class _Local:
         except _Enough:
             return _End()
 
-    def best(self) -> Start | None:
+    def best(self) -> Start:
         """The best design that was met."""
         ends = []
         for site in self.sites:
             rows = self.search.rows(self.aim, self.search.evaluation([site])[0])
             ends.append(Start(site, float(rows.objective.max()), rows.violation, converged=False, message=""))
         if self.nearest:
-            return min(ends, key=lambda end: (end.violation, end.objective), default=None)
-        return min(ends, key=self.search.rank, default=None)
+            return min(ends, key=lambda end: (end.violation, end.objective))
+        return min(ends, key=self.search.rank)
 
     def _site(self, x: RealArray) -> Site:
         return self.search.problem.place(self.choice, x[: self.n])
