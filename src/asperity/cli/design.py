@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -39,23 +41,9 @@ def design(
     input; 130: interrupted.
     """
     folder = folder_of(study, out)
-    try:
-        with (
-            speaking("command"),
-            Progress(
-                TextColumn("{task.description}"), console=error_console(), transient=True, disable=not watching()
-            ) as bar,
-        ):
-            task = bar.add_task("checking", total=None)
-
-            def told(solved: int, reused: int) -> None:
-                bar.update(task, description=f"{solved} contacts solved, {reused} kept from before")
-
-            count = available_cores() if workers is None else workers
-            found = optimise(study, folder, workers=count, retry=retry, progress=told)
-    except KeyboardInterrupt:
-        say(f"Interrupted. Solved contacts are kept; resume with: asperity design {study}", "yellow")
-        raise typer.Exit(INTERRUPTED) from None
+    with speaking("command"), resumable(f"asperity design {study}"), counting() as told:
+        count = available_cores() if workers is None else workers
+        found = optimise(study, folder, workers=count, retry=retry, progress=told)
     written = write_design_files(found, folder)
     if as_json:
         console().out(json.dumps(found.record(), indent=2, ensure_ascii=False), highlight=False)
@@ -63,6 +51,30 @@ def design(
         print_design(found)
         print_files(written)
     raise typer.Exit(OK if found.feasible and found.converged else NOT_CONVERGED)
+
+
+@contextmanager
+def resumable(again: str) -> Iterator[None]:
+    """Context that ends with the exit code of an interrupt by Ctrl-C; ``again`` is the command that
+    goes on."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        say(f"Interrupted. Solved contacts are kept; resume with: {again}", "yellow")
+        raise typer.Exit(INTERRUPTED) from None
+
+
+@contextmanager
+def counting() -> Iterator[Callable[[int, int], None]]:
+    """What shows how many contacts are solved, on stderr if that is a terminal."""
+    column = TextColumn("{task.description}")
+    with Progress(column, console=error_console(), transient=True, disable=not watching()) as bar:
+        task = bar.add_task("checking", total=None)
+
+        def told(solved: int, reused: int) -> None:
+            bar.update(task, description=f"{solved} contacts solved, {reused} kept from before")
+
+        yield told
 
 
 def print_design(found: Design) -> None:

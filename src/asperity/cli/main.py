@@ -39,6 +39,7 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "compare": "compare",
         **dict.fromkeys(("run", "status", "collect"), "campaigns"),
         "design": "design",
+        "calibrate": "calibrate",
         "app": "app",
         "info": "info",
         "predict": "predict",

@@ -75,6 +75,27 @@ def plot_front(first: Labelled, second: Labelled, chosen: int | None, ax: Axes) 
     return _labelled(ax, _with_unit(second, along.symbol), _with_unit(first, up.symbol), legend=chosen is not None)
 
 
+def plot_fit(x: Labelled, y: Labelled, deviation: RealArray, model: RealArray, ax: Axes) -> Axes:
+    """Draw the measured quantity ``y`` with its ``deviation`` against ``x`` on ``ax``, and the
+    ``model``, (n,) each."""
+    along, up = scale(x.values, x.quantity.unit), scale(y.values, y.quantity.unit)
+    order = np.argsort(x.values)
+    ax.errorbar(
+        along(x.values), up(y.values), up(2.0 * deviation), fmt="o", color=BLUE, markersize=4.0, label="measured, 2 s"
+    )
+    ax.plot(along(x.values)[order], up(model)[order], color=VERMILLION, label="fit")
+    return _labelled(ax, _with_unit(x, along.symbol), _with_unit(y, up.symbol), legend=True)
+
+
+def plot_profile_likelihood(x: Labelled, rises: RealArray, limit: float, ax: Axes) -> Axes:
+    """Draw the ``rises`` of a sum of squares against the parameter ``x`` on ``ax``, (n,) each, with
+    the ``limit`` of its interval."""
+    along = scale(x.values, x.quantity.unit)
+    ax.plot(along(x.values), rises, "o-", color=BLUE, markersize=4.0)
+    ax.axhline(limit, color=VERMILLION, linestyle="--", label="95 %")
+    return _labelled(ax, _with_unit(x, along.symbol), "rise of the sum of squares", legend=True)
+
+
 def _with_unit(what: Labelled, symbol: str) -> str:
     return "\n".join(wrap(f"{what.quantity.label} ({symbol})" if symbol else what.quantity.label, LINE))
 

@@ -2,6 +2,8 @@ from ..cli.press import press
 from ..run.execute import Outcome
 from ..run.run import run
 from ..theories.rough.predictor import Expected
+from .calibrate import calibrate
+from .calibration import Calibration
 from .campaign import Campaign, open_study, run_study
 from .collect import CampaignState
 from .compare import compare
@@ -11,6 +13,7 @@ from .design.optimise import optimise
 from .predict import Prediction, predict
 
 __all__ = [
+    "Calibration",
     "Campaign",
     "CampaignState",
     "Comparison",
@@ -18,6 +21,7 @@ __all__ = [
     "Expected",
     "Outcome",
     "Prediction",
+    "calibrate",
     "compare",
     "open_study",
     "optimise",

@@ -172,7 +172,7 @@ def prepare_study(
     else:
         beside = Path(study).with_name(f"{Path(study).stem}-results")
         loaded, target = load_study(study), beside if folder is None else Path(folder)
-    _require_no_design(loaded)
+    _require_cases(loaded)
     campaign = Campaign(target, loaded)
     _ = campaign.plan  # all mistakes are found before anything is written
     if target.is_dir() and any(target.iterdir()) and not (target / STUDY).is_file():
@@ -220,13 +220,14 @@ def open_study(folder: str | Path) -> Campaign:
             f"results of a study must lie in a folder with {STUDY}, but {place} has none; run it first: asperity run."
         )
     loaded = load_study(place / STUDY)
-    _require_no_design(loaded)
+    _require_cases(loaded)
     return Campaign(place, loaded)
 
 
-def _require_no_design(study: LoadedStudy) -> None:
-    if study.document.design is not None:
+def _require_cases(study: LoadedStudy) -> None:
+    kind, command = study.document.kind, {"design": "design", "calibration": "calibrate"}
+    if kind in command:
         raise InputError(
-            "study must not be a design to be run or collected as cases, but has the table [design]; optimise it: "
-            "asperity design."
+            f"study must not be a {kind} to be run or collected as cases, but has the table [{kind}]; run "
+            f"asperity {command[kind]}."
         )

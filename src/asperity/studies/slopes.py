@@ -15,6 +15,7 @@ from ..contact.result import ContactResult
 from ..core.errors import AsperityError
 from ..io.schemas.bodies import LayerTable
 from ..io.schemas.problem import PerLength
+from ..physics.sensitivities.answer import Sensitivities
 from ..physics.sensitivities.outputs import Output, Slopes, State
 from ..physics.sensitivities.sensitivities import sensitivities
 from ..run.document import ProblemDocument
@@ -122,15 +123,30 @@ def slopes(outcome: Outcome, quantities: Sequence[str], paths: Sequence[str]) ->
         return found
     for quantity in (name for name in quantities if name in OUTPUTS):
         value = float(outcome.values.get(quantity, math.nan))
+        made = _derivatives(result, OUTPUTS[quantity], [each.name for each in wanted.values()])
+        if made is None or not abs(made.value - value) <= SAME * abs(value):
+            continue
         for path, each in wanted.items():
-            try:
-                made = sensitivities(result, OUTPUTS[quantity], each.name)
-            except AsperityError:  # the contact, the number or the parameter has none
+            if each.name not in made.values:
                 continue
-            if not abs(made.value - value) <= SAME * abs(value):
-                break
             slope = made[each.name]
             if each.name == "heights":
                 slope = (np.asarray(slope) * result.problem.profile()).sum()
             found[slope_name(quantity, path)] = float(np.sum(slope)) * each.factor
     return found
+
+
+def _derivatives(result: ContactResult, of: str | Output, names: Sequence[str]) -> Sensitivities | None:
+    """Sensitivities to those of the parameters ``names`` that the contact has; None if to none."""
+    try:
+        return sensitivities(result, of, names)
+    except AsperityError:  # the contact or the number has none, or not to one of the parameters
+        pass
+    kept = []
+    for name in names if len(names) > 1 else ():
+        try:
+            sensitivities(result, of, name)
+        except AsperityError:
+            continue
+        kept.append(name)
+    return sensitivities(result, of, kept) if kept else None

@@ -10,6 +10,7 @@ from ...core.errors import InputError
 from ...core.settings import Settings
 from ...core.values import Count, Fraction, NonEmpty, Positive, Seed, Whole
 from .axis_values import Values
+from .calibration import CalibrationTable
 from .design import DesignTable
 
 DEFAULT_QUANTITIES = ("area_fraction_corrected", "max_pressure", "approach", "mean_gap")
@@ -213,12 +214,14 @@ class StudyDocument(Settings):
     critical_thickness: CriticalThicknessTable | None = None
     sensitivity: SensitivityTable | None = None
     design: DesignTable | None = None
+    calibration: CalibrationTable | None = None
 
     @property
     def kind(self) -> str:
-        """Which of the ``KINDS`` it is, or ``"sweep"``, or ``"design"``."""
-        if self.design is not None:
-            return "design"
+        """Which of the ``KINDS`` it is, or ``"sweep"``, ``"design"`` or ``"calibration"``."""
+        for own in ("design", "calibration"):
+            if getattr(self, own) is not None:
+                return own
         return next((kind for kind in KINDS if getattr(self, kind) is not None), "sweep")
 
     @model_validator(mode="after")
@@ -230,7 +233,12 @@ class StudyDocument(Settings):
             )
         if self.design is not None and any(kind != "monte_carlo" for kind in given):
             raise InputError(f"study with the table design must leave out the table {given[0]}, but has it.")
-        if not given and not self.axes and self.design is None:
+        if self.calibration is not None and (given or self.axes or self.design is not None):
+            raise InputError(
+                "study with the table calibration must have no axes and no other such table, but has; the curve gives "
+                "the cases."
+            )
+        if not given and not self.axes and self.design is None and self.calibration is None:
             raise InputError(f"study must have axes or one of the tables {', '.join(KINDS)}, but has none.")
         if not self.quantities:
             raise InputError("quantities must hold at least one name, such as area_fraction, but is empty.")

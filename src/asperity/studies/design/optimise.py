@@ -74,18 +74,19 @@ def optimise(
     ConvergenceError
         If no design could be computed.
     """
-    loaded, target = _loaded(study, folder)
+    loaded, target = loaded_study(study, folder)
     problem = make_design(loaded)
     with ExitStack() as stack:
         executor: Executor = Here() if workers == 1 else stack.enter_context(LocalProcesses(workers).kept())
         store, known = None, dict[str, Record]()
         if target is not None:
-            store, known = stack.enter_context(_kept(target, loaded, retry=retry))
+            store, known = stack.enter_context(kept(target, loaded, retry=retry))
         evaluation = Evaluation(problem, executor, store, known, progress or (lambda solved, found: None))
         return _design(Search(problem, evaluation))
 
 
-def _loaded(study: str | Path | Mapping[str, Any], folder: str | Path | None) -> tuple[LoadedStudy, Path | None]:
+def loaded_study(study: str | Path | Mapping[str, Any], folder: str | Path | None) -> tuple[LoadedStudy, Path | None]:
+    """A study, and the folder of its results; None for nowhere."""
     if isinstance(study, Mapping):
         return study_from_table(study, Path()), None if folder is None else Path(folder)
     return load_study(study), folder_of(study, folder)
@@ -98,8 +99,9 @@ def folder_of(study: str | Path, folder: str | Path | None = None) -> Path:
 
 
 @contextmanager
-def _kept(folder: Path, study: LoadedStudy, *, retry: bool) -> Iterator[tuple[Store, dict[str, Record]]]:
-    """Store in the folder of a design, and what it holds."""
+def kept(folder: Path, study: LoadedStudy, *, retry: bool) -> Iterator[tuple[Store, dict[str, Record]]]:
+    """Store in the ``folder`` of a ``study``, made if it is missing, and the records it holds;
+    errors as of ``optimise``."""
     if folder.is_dir() and any(folder.iterdir()) and not (folder / STUDY).is_file():
         raise OutputError(
             f"folder of a study must be new, empty, or hold its results, but {folder} holds something else; "

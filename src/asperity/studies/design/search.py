@@ -128,7 +128,7 @@ class Search:
             for n in range(len(numbers))
         }
         lacking = [n for n in range(len(numbers)) if any(known[c, n] is None for c in range(len(criteria)))]
-        around = self._neighbours(site, lacking)
+        around = self.neighbours(site, lacking)
         self.evaluation([one for pair in around.values() for one in pair])
         columns = []
         for n, each in enumerate(numbers):
@@ -147,7 +147,7 @@ class Search:
         count = self.evaluation.value(aim.objective, found).size
         return matrix[:count], matrix[count:]
 
-    def _neighbours(self, site: Site, numbers: Sequence[int]) -> dict[int, tuple[Site, Site]]:
+    def neighbours(self, site: Site, numbers: Sequence[int]) -> dict[int, tuple[Site, Site]]:
         """Designs a step below and above in each of the ``numbers``, within the bounds."""
         found = {}
         for n in numbers:
