@@ -19,9 +19,11 @@ HALFSPACE = {"youngs_modulus": "150 GPa", "poisson_ratio": 0.3}
 def test_a_modulus_is_fitted_and_kept(tmp_path: Path, run: Runner) -> None:
     problem = {**PROBLEM, "body": {**HALFSPACE, "youngs_modulus": "200 GPa"}}
     loads = (1, 2, 4)
-    gaps = [asp.run({**problem, "control": {"mean_pressure": f"{p} MPa"}}).values["mean_gap"] for p in loads]
-    rows = "\n".join(f"{p},{1e9 * gap!r}" for p, gap in zip(loads, gaps, strict=True))
-    (tmp_path / "curve.csv").write_text(f"mean_pressure (MPa),mean_gap (nm)\n{rows}\n", encoding="utf-8")
+    found = [asp.run({**problem, "control": {"mean_pressure": f"{p} MPa"}}).values for p in loads]
+    pairs = [(1e9 * values["mean_gap"], 1e9 * values["approach"]) for values in found]
+    rows = "\n".join(f"{p},{gap!r},{approach!r}" for p, (gap, approach) in zip(loads, pairs, strict=True))
+    head = "mean_pressure (MPa),mean_gap (nm),approach (nm)"
+    (tmp_path / "curve.csv").write_text(f"{head}\n{rows}\n", encoding="utf-8")
     fitted = {"path": "body.youngs_modulus", "name": "E", "low": "50 GPa", "high": "800 GPa"}
     study = {"version": 1, "problem": {**PROBLEM, "body": HALFSPACE}}
     path = tmp_path / "fit.toml"
@@ -29,8 +31,9 @@ def test_a_modulus_is_fitted_and_kept(tmp_path: Path, run: Runner) -> None:
     path.write_text(tomli_w.dumps({**study, "calibration": table}), encoding="utf-8")
     result = run("calibrate", path, "--workers", 1)
     assert result.exit_code == 0, result.output
-    found = json.loads((tmp_path / "fit-results" / "calibration.json").read_text(encoding="utf-8"))
-    (modulus,) = found["parameters"]
+    record = json.loads((tmp_path / "fit-results" / "calibration.json").read_text(encoding="utf-8"))
+    (modulus,) = record["parameters"]
+    assert len(record["curve"]) == 6
     assert abs(modulus["value"] / 200e9 - 1.0) < 2e-3
     assert show(modulus["value"], "Pa") in result.stdout
     again = run("calibrate", path, "--workers", 1, "--json")

@@ -220,7 +220,13 @@ class _Fit:
         intervals = [profiles[n][1] if n in profiles else factors[n] * site.values[n] for n in range(len(numbers))]
         chi = 2.0 * float(best.cost)
         freedom = best.fun.size - len(numbers)
-        findings = list(telling.texts)
+        findings = [
+            f"{each.name} lies at the {end} end of its range: give a wider one, if that can be."
+            for each, share in zip(numbers, best.x, strict=True)
+            for end, gap in (("lower", share), ("upper", 1.0 - share))
+            if gap < AT_END
+        ]
+        findings += telling.texts
         if freedom > 0 and chi / freedom > 4.0:
             off = math.sqrt(chi / freedom)
             text = f"The fit is {off:.2g} deviations off on the mean: model or noise are not right."
@@ -276,7 +282,7 @@ class _Fit:
         points = [(float(best[number]), 0.0)]
         for side in (-1.0, 1.0):
             first, rise = np.array(best), 0.0
-            for step in (0.25, 0.5, 1.0):
+            for step in (0.06, 0.15, 0.4, 1.0):
                 share = float(np.clip(best[number] + side * step * reach / each.width, 0.0, 1.0))
                 if rise > LIKELY or abs(share - points[-1][0]) < 1e-9:
                     break
@@ -313,6 +319,9 @@ def _interval(value: Any, shares: RealArray, rises: RealArray, best: float) -> t
         ends.append(float(value(x[n - 1] + share * (x[n] - x[n - 1]))))
     return ends[0], ends[1]
 
+
+AT_END = 1e-3
+"""Share of the range within which a value counts as one at its end."""
 
 FEW = 6
 """Steps of a fit of a profile, which begins at the one beside it."""

@@ -237,7 +237,7 @@ def make_design(study: LoadedStudy) -> DesignProblem:
     asked = [
         name for name in _asked(table) if name not in (*names, *(each.place.path for each in (*numbers, *choices)))
     ]
-    kept = [name for name in study.document.quantities if name not in DEFAULT_QUANTITIES]
+    kept = () if study.document.quantities == DEFAULT_QUANTITIES else study.document.quantities
     quantities = tuple(dict.fromkeys((*asked, *kept))) or DEFAULT_QUANTITIES[:1]
     document = study.document.model_copy(update={"quantities": quantities})
     plan = make_plan(LoadedStudy(document, study.problem, study.folder))
