@@ -21,12 +21,12 @@ DESIGN, TABLE, CHANGES, FRONT, PLOTS = "design.json", "design.csv", "changes.csv
 
 def design_figures(design: Design) -> Iterator[Figure]:
     """Figures of ``design``: how the search went, the margins, and the front where there is one."""
-    aim, tolerance = design.objective, 1e-3
+    aim = design.objective
     values, missed = np.array(design.history).reshape(-1, 2).T
     text = f"{aim.label} of the designs that the search met, in their order."
     history, larger = _labelled(aim, values), aim.goal == "maximise"
     yield curve_figure(
-        "history", "Search", text, lambda ax: plot_history(history, missed <= tolerance, ax, larger=larger)
+        "history", "Search", text, lambda ax: plot_history(history, missed <= design.tolerance, ax, larger=larger)
     )
     if design.constraints:
         names = [each.words for each in design.constraints]

@@ -164,6 +164,8 @@ class Design:
         Contacts that were solved, those that were kept from before, and designs that failed.
     failure
         Why the first of them failed.
+    tolerance
+        Share of a limit by which it may be missed and still counts as met.
     """
 
     title: str
@@ -183,6 +185,7 @@ class Design:
     reused: int = 0
     failed: int = 0
     failure: str = ""
+    tolerance: float = 1e-3
     software: dict[str, str] = field(default_factory=software)
 
     def __getitem__(self, name: str) -> Value:

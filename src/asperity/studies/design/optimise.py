@@ -154,6 +154,7 @@ def _design(search: Search) -> Design:
         reused=evaluation.reused,
         failed=len(failed),
         failure=failed[0] if failed else "",
+        tolerance=search.tolerance,
     )
 
 
