@@ -73,7 +73,9 @@ from .solids.layers import RigidBase as RigidBase
 from .solids.library import liquid as liquid
 from .solids.library import material as material
 from .solids.viscoelastic import Viscoelastic as Viscoelastic
+from .studies.calibrate import calibrate as calibrate
 from .studies.compare import compare as compare
+from .studies.design.optimise import optimise as optimise
 from .studies.predict import predict as predict
 from .surfaces.characterise.summary import characterise as characterise
 from .surfaces.prepare.extent import periodised as periodised

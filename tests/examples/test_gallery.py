@@ -387,6 +387,30 @@ def test_gold_plated_connector():
     assert left.number == pytest.approx(98.4, abs=0.1)
 
 
+def test_design_of_a_disk_coating():
+    """Yield is at 1.5 times the load of the shock, and less roughness pulls more."""
+    design = run("advanced/plot_15_design_of_a_disk_coating").design
+    assert design.feasible
+    assert design.active == ("yield_load_factor",)
+    smoother = next(change for change in design.changes if change.variable == "roughness")
+    assert smoother.value < design["roughness"]
+    assert smoother.objective > 1.2 * design.objective.value
+    assert smoother.margins[0] > 0.03
+
+
+def test_design_of_a_connector():
+    """Less gold yields; along the front a rougher contact takes more gold."""
+    design = run("advanced/plot_16_design_of_a_connector").design
+    assert design.feasible
+    thinner = next(change for change in design.changes if change.variable == "gold")
+    assert thinner.value < design["gold"]
+    assert thinner.margins[0] < -0.05
+    gold, roughness = np.array([(point.objective, point.second) for point in design.front]).T
+    assert len(gold) == 5
+    assert np.all(np.diff(gold) < 0.0)
+    assert np.all(np.diff(roughness) < 0.0)
+
+
 @pytest.mark.slow
 def test_shakedown_of_a_roller():
     """Below the limit flow ceases, above it goes on; a compression below the surface protects, and

@@ -38,6 +38,8 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "stress": "results",
         "compare": "compare",
         **dict.fromkeys(("run", "status", "collect"), "campaigns"),
+        "design": "design",
+        "calibrate": "calibrate",
         "app": "app",
         "info": "info",
         "predict": "predict",

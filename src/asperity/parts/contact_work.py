@@ -3,6 +3,7 @@ way."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -17,9 +18,25 @@ from .advice import findings
 from .contact import LoadPath
 from .part import Found, Rows, Solved, Table, Words, Work
 
+YIELDING = (
+    "plastic_work",
+    "total_plastic_work",
+    "plastic_area_fraction",
+    "indented_area",
+    "plastic_volume",
+    "max_permanent_indentation",
+)
+"""Quantities of a contact that yields, zero where nothing limits the pressure."""
+
 
 class ContactWork(Work):
     """What is known of every contact: what is done for it."""
+
+    def unknown(self, ask: Any, problem: ContactProblem) -> Mapping[str, str]:
+        """What yields where the pressure has no limit."""
+        if np.all(np.isfinite(problem.law.pressure_cap())):
+            return {}
+        return dict.fromkeys(YIELDING, "the pressure has no limit. Give one, as {hardness}")
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Scalars of the result."""

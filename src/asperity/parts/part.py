@@ -242,6 +242,11 @@ class Work:
     def check(self, ask: Any, problem: ContactProblem) -> None:
         """Refuse with an ``InputError`` what ``problem`` does not have, before it is solved."""
 
+    def unknown(self, ask: Any, problem: ContactProblem) -> Mapping[str, str]:
+        """Names of quantities that mean nothing for ``problem``, since it lacks data: each with
+        what is missing, and how to give it."""
+        return {}
+
     def course(self, ask: Any, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """The steps that are solved, for those that the load and the parts before this one ask
         for."""

@@ -42,13 +42,14 @@ def refusals(table: Mapping[str, Any], folder: Path) -> tuple[Refusal, ...]:
     """
     document = checked(table)
     try:
-        build(document, folder, surfaces=_stand_ins)
+        build(document, folder, surfaces=stand_ins)
     except AsperityError as error:
         return (Refusal(error.place, str(error)),)
     return ()
 
 
-def _stand_ins(table: SurfaceTable, counter: SurfaceTable | None, folder: Path) -> tuple[Surface, Surface | None]:
+def stand_ins(table: SurfaceTable, counter: SurfaceTable | None, folder: Path) -> tuple[Surface, Surface | None]:
+    """Waves of the size that is stated, for ``build`` in place of surface and counter surface."""
     surface = _stand_in(table)
     return surface, None if counter is None else surface
 

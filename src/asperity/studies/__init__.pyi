@@ -2,21 +2,29 @@ from ..cli.press import press
 from ..run.execute import Outcome
 from ..run.run import run
 from ..theories.rough.predictor import Expected
+from .calibrate import calibrate
+from .calibration import Calibration
 from .campaign import Campaign, open_study, run_study
 from .collect import CampaignState
 from .compare import compare
 from .comparison import Comparison
+from .design.answer import Design
+from .design.optimise import optimise
 from .predict import Prediction, predict
 
 __all__ = [
+    "Calibration",
     "Campaign",
     "CampaignState",
     "Comparison",
+    "Design",
     "Expected",
     "Outcome",
     "Prediction",
+    "calibrate",
     "compare",
     "open_study",
+    "optimise",
     "predict",
     "press",
     "run",

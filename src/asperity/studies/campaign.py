@@ -172,6 +172,7 @@ def prepare_study(
     else:
         beside = Path(study).with_name(f"{Path(study).stem}-results")
         loaded, target = load_study(study), beside if folder is None else Path(folder)
+    _require_cases(loaded)
     campaign = Campaign(target, loaded)
     if refused := campaign.plan.refused():  # all mistakes are found before anything is written
         raise InputError(f"every case of the study would fail, and so would its problem: {refused}", subject="study")
@@ -219,4 +220,15 @@ def open_study(folder: str | Path) -> Campaign:
         raise FileFormatError(
             f"results of a study must lie in a folder with {STUDY}, but {place} has none; run it first: asperity run."
         )
-    return Campaign(place, load_study(place / STUDY))
+    loaded = load_study(place / STUDY)
+    _require_cases(loaded)
+    return Campaign(place, loaded)
+
+
+def _require_cases(study: LoadedStudy) -> None:
+    kind, command = study.document.kind, {"design": "design", "calibration": "calibrate"}
+    if kind in command:
+        raise InputError(
+            f"study must not be a {kind} to be run or collected as cases, but has the table [{kind}]; run "
+            f"asperity {command[kind]}."
+        )

@@ -18,6 +18,7 @@ from ..run.document import checked
 from ..run.execute import Warm, execute
 from ..run.verdict import verdict
 from .places import edited, from_plain
+from .slopes import slopes
 from .store import Record
 
 CHECKS = ("duality_gap", "field_error", "penetration", "load_imbalance", "iterations", "fft_pairs", "wall_time")
@@ -36,7 +37,8 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
     task
         ``table`` of the base problem, ``folder`` at which its relative paths start, ``quantities``,
         and ``cases`` with ``key`` and ``edits``, and the ``version`` of asperity: plain values, so
-        that it can be sent to another machine.
+        that it can be sent to another machine. With ``slopes``, paths of scalars, records hold the
+        derivatives to these too, where there are any.
 
     Raises
     ------
@@ -67,7 +69,8 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
                     given = verdict(outcome)
                 record: Record = {
                     "key": case["key"],
-                    "values": {name: float(values.get(name, np.nan)) for name in quantities},
+                    "values": {name: float(values.get(name, np.nan)) for name in quantities}
+                    | slopes(outcome, quantities, task.get("slopes", ())),
                     "work": {name: getattr(certificate, name) for name in CHECKS},
                     "citations": list(outcome.citation_keys),
                     "findings": [

@@ -9,6 +9,7 @@ import sys
 import tempfile
 import threading
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import islice
 from queue import SimpleQueue
@@ -56,35 +57,60 @@ class LocalProcesses:
 
     def run(self, function: str, tasks: Iterator[Task]) -> Iterator[tuple[Task, Any | Lost]]:
         """Every task with its answer, as they are done."""
-        done: SimpleQueue[tuple[_Lane, Task, Any]] = SimpleQueue()
-        lanes = [_Lane(function, task, done, self.threads) for task in islice(tasks, self.workers)]
+        with self.kept() as workers:
+            yield from workers.run(function, tasks)
+
+    @contextmanager
+    def kept(self) -> Iterator[KeptProcesses]:
+        """Processes that stay from one run to the next, and end with the context."""
+        workers = KeptProcesses(self.workers, self.threads)
         try:
-            busy = len(lanes)
-            while busy:
-                lane, task, answer = done.get()
-                following = next(tasks, None)
-                if following is None:
-                    busy -= 1
-                    lane.end()
-                else:
-                    lane.orders.put(following)
-                if isinstance(answer, BaseException):
-                    raise answer
-                yield task, answer
+            yield workers
         finally:
-            for lane in lanes:
-                lane.end()
-            for lane in lanes:
-                lane.join()
+            workers.end()
+
+
+class KeptProcesses:
+    """Worker processes that are started as tasks need them, and stay."""
+
+    def __init__(self, workers: int, threads: int) -> None:
+        self._most, self._threads = workers, threads
+        self._lanes: list[_Lane] = []
+        self._done: SimpleQueue[tuple[_Lane, Task, Any]] = SimpleQueue()
+
+    def run(self, function: str, tasks: Iterator[Task]) -> Iterator[tuple[Task, Any | Lost]]:
+        """Every task with its answer, as they are done."""
+        busy = 0
+        for number, task in enumerate(islice(tasks, self._most)):
+            if number == len(self._lanes):
+                self._lanes.append(_Lane(self._done, self._threads))
+            self._lanes[number].orders.put((function, task))
+            busy += 1
+        while busy:
+            lane, task, answer = self._done.get()
+            following = next(tasks, None)
+            if following is None:
+                busy -= 1
+            else:
+                lane.orders.put((function, following))
+            if isinstance(answer, BaseException):
+                raise answer
+            yield task, answer
+
+    def end(self) -> None:
+        """Stop all at once, whatever they are doing."""
+        for lane in self._lanes:
+            lane.end()
+        for lane in self._lanes:
+            lane.join()
 
 
 class _Lane:
     """One worker process and the thread that serves it."""
 
-    def __init__(self, function: str, first: Task, done: SimpleQueue[Any], threads: int) -> None:
-        self.orders: SimpleQueue[Task | None] = SimpleQueue()
-        self.orders.put(first)
-        self._function, self._done, self._ended = function, done, False
+    def __init__(self, done: SimpleQueue[Any], threads: int) -> None:
+        self.orders: SimpleQueue[tuple[str, Task] | None] = SimpleQueue()
+        self._done, self._ended = done, False
         self._lock, self._environment = threading.Lock(), worker_environment(threads)
         self._process: subprocess.Popen[str] | None = None
         self._thread = threading.Thread(target=self._serve, daemon=True)
@@ -105,16 +131,16 @@ class _Lane:
     def _serve(self) -> None:
         with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as output:
             try:
-                while (task := self.orders.get()) is not None and not self._ended:
-                    self._done.put((self, task, self._answer(task, output)))
+                while (given := self.orders.get()) is not None and not self._ended:
+                    self._done.put((self, given[1], self._answer(*given, output)))
             except BaseException as error:  # raised again in the thread that waits for answers
                 self._done.put((self, {}, error))
             finally:
                 if self._process is not None:
                     self._process.communicate()
 
-    def _answer(self, task: Task, output: IO[str]) -> Any | Lost:
-        order = json.dumps({"function": self._function, "task": task}) + "\n"
+    def _answer(self, function: str, task: Task, output: IO[str]) -> Any | Lost:
+        order = json.dumps({"function": function, "task": task}) + "\n"
         reason = ""
         for _ in range(ATTEMPTS):
             process = self._started(output)

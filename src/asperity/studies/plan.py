@@ -5,18 +5,18 @@ from __future__ import annotations
 
 import difflib
 import itertools
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
 from typing import Any
 
-from ..core import require
+from ..core import require, units
 from ..core.arrays import content_digest
 from ..core.errors import InputError
 from ..core.quantity import Limit, Quantity
 from ..core.status import is_large, require_memory, room_text
-from ..core.units import parse_in
 from ..io.description import software
 from ..io.schemas.study import AxisTable, LimitTable, RandomTable, StudyDocument
 from ..parts.registry import parts, versions
@@ -140,10 +140,11 @@ class Plan:
         points = (item.points[at] for item, at in zip(self.axes, index, strict=True))
         return self.scalars.ruled(index, tuple(edit for point in points for edit in point.edits))
 
-    def key(self, edits: Sequence[Edit]) -> str:
-        """Digest of the content of a case: its problem, the quantities and the version of the
-        program."""
-        return content_digest([edited(self._content, edits, by_content=True), self._made_by])
+    def key(self, edits: Sequence[Edit], beside: str = "") -> str:
+        """Digest of the content of a case: its problem, the quantities, what is computed ``beside``
+        them, and the version of the program."""
+        made_by = [*self._made_by, beside] if beside else self._made_by
+        return content_digest([edited(self._content, edits, by_content=True), made_by])
 
     def coordinates(self, index: Sequence[int]) -> dict[str, Coordinate]:
         """Where the case at ``index`` lies, by name of axis and column."""
@@ -221,14 +222,20 @@ def _limit(table: LimitTable, derived: Iterable[Derived]) -> tuple[str, Limit]:
             f"{'; did you mean ' + ' or '.join(near) + '?' if near else '.'}"
         )
     least = table.at_least is not None
-    value, unit = table.at_least if table.at_least is not None else table.at_most, known[table.quantity].unit
-    what = f"limit of {table.quantity}"
-    if isinstance(value, str):
-        return table.quantity, Limit(parse_in(value, "" if unit == "1" else unit, what), least)
-    if unit != "1":
-        raise InputError(f"{what} must be text with a number and a unit such as {unit}, but is {value!r}.")
-    assert value is not None
-    return table.quantity, Limit(require.finite(value, what), least)
+    text = table.at_least if least else table.at_most
+    value = limit_of(text, known[table.quantity].unit, f"limit of {table.quantity}")
+    return table.quantity, Limit(value, least)
+
+
+def limit_of(text: str | float | None, unit: str, what: str) -> float:
+    """SI value of a limit: text with a unit where the quantity has one."""
+    if unit == "1" and not isinstance(text, str):
+        return require.finite(float(text) if text is not None else math.nan, what)
+    if not isinstance(text, str):
+        raise InputError(
+            f'{what} must be text with a number and a unit, such as "{units.show(1.0, unit)}", but is {text!r}.'
+        )
+    return units.parse(text, "number", what) if unit == "1" else units.parse_in(text, unit, what)
 
 
 MOST_ENDS = 16

@@ -96,11 +96,7 @@ def carry_out(
         stream = executor.run(function, work.tasks())
         try:
             for task, answer in stream:
-                if isinstance(answer, Lost):
-                    error = {"type": "WorkerLost", "message": answer.reason}
-                    failure = {"values": {}, "work": {}, "citations": [], "error": error}
-                    answer = [{"key": case["key"], **failure} for case in task["cases"]]
-                found: list[Record] = answer
+                found: list[Record] = lost(task, answer) if isinstance(answer, Lost) else answer
                 store.append(found)
                 work.take(task, found)
                 done += len(found)
@@ -111,6 +107,13 @@ def carry_out(
             if close is not None:
                 close()
     return RunSummary(done, failed, work.found)
+
+
+def lost(task: Task, answer: Lost) -> list[Record]:
+    """Records of the cases of a ``task`` that has ended its worker."""
+    error = {"type": "WorkerLost", "message": answer.reason}
+    failure = {"values": {}, "work": {}, "citations": [], "error": error}
+    return [{"key": case["key"], **failure} for case in task["cases"]]
 
 
 class _Work:

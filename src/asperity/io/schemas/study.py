@@ -2,31 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from ...core.errors import InputError
 from ...core.settings import Settings
 from ...core.values import Count, Fraction, NonEmpty, Positive, Seed, Whole
+from .axis_values import LimitTable, Values
+from .calibration import CalibrationTable
+from .design import DesignTable
 
 DEFAULT_QUANTITIES = ("area_fraction_corrected", "max_pressure", "approach", "mean_gap")
 """What is collected unless the document asks for something else."""
-
-Value: TypeAlias = str | int | float | tuple[int, int]
-"""One value of an axis: text with a unit where the document has one, a number, or the points of a
-grid."""
-
-
-def _values(value: object) -> object:
-    """A list of values, of which pairs may be lists, as tuples."""
-    if not isinstance(value, list | tuple):
-        return value
-    return tuple(tuple(item) if isinstance(item, list) else item for item in value)
-
-
-Values: TypeAlias = Annotated[tuple[Value, ...], BeforeValidator(_values)]
-"""Values of an axis in the order given."""
 
 
 class _Range(Settings):
@@ -70,22 +58,6 @@ class AxisTable(_Range):
     def _named(self) -> AxisTable:
         if self.expression is not None and self.name is None:
             raise InputError(" must have a name for its values, because an expression takes them, but has none.")
-        return self
-
-
-class LimitTable(Settings):
-    """A ``quantity`` that must be ``at_least`` or ``at_most`` a limit, text with a unit where it
-    has one."""
-
-    quantity: NonEmpty
-    at_least: str | int | float | None = None
-    at_most: str | int | float | None = None
-
-    @model_validator(mode="after")
-    def _one_limit(self) -> LimitTable:
-        if (self.at_least is None) == (self.at_most is None):
-            given = "neither" if self.at_least is None else "both"
-            raise InputError(f" must give exactly one of at_least and at_most, but gives {given}.")
         return self
 
 
@@ -238,7 +210,8 @@ class SensitivityTable(Settings):
 
 
 KINDS = ("monte_carlo", "convergence", "critical_thickness", "sensitivity")
-"""Tables of which at most one determines the kind of study; without any it is a sweep."""
+"""Tables of which at most one determines the kind of study; without any it is a sweep. A design has
+none of them but samples."""
 
 
 class StudyDocument(Settings):
@@ -263,10 +236,15 @@ class StudyDocument(Settings):
     convergence: ConvergenceTable | None = None
     critical_thickness: CriticalThicknessTable | None = None
     sensitivity: SensitivityTable | None = None
+    design: DesignTable | None = None
+    calibration: CalibrationTable | None = None
 
     @property
     def kind(self) -> str:
-        """Which of the ``KINDS`` it is, or ``"sweep"``."""
+        """Which of the ``KINDS`` it is, or ``"sweep"``, ``"design"`` or ``"calibration"``."""
+        for own in ("design", "calibration"):
+            if getattr(self, own) is not None:
+                return own
         return next((kind for kind in KINDS if getattr(self, kind) is not None), "sweep")
 
     @model_validator(mode="after")
@@ -276,7 +254,14 @@ class StudyDocument(Settings):
             raise InputError(
                 f"study must have at most one of the tables {', '.join(KINDS)}, but has {' and '.join(given)}."
             )
-        if not given and not self.axes:
+        if self.design is not None and any(kind != "monte_carlo" for kind in given):
+            raise InputError(f"study with the table design must leave out the table {given[0]}, but has it.")
+        if self.calibration is not None and (given or self.axes or self.design is not None):
+            raise InputError(
+                "study with the table calibration must have no axes and no other such table, but has; the curve gives "
+                "the cases."
+            )
+        if not given and not self.axes and self.design is None and self.calibration is None:
             raise InputError(f"study must have axes or one of the tables {', '.join(KINDS)}, but has none.")
         if not self.quantities:
             raise InputError("quantities must hold at least one name, such as area_fraction, but is empty.")

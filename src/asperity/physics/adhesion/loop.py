@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 _STORED = {item.name: item for item in stored_quantities(AdhesiveContact)}
 
 ADHESION_SCALARS = (
+    Quantity("adhesive_external_force", "N", "external force of the adhesive contact, pull negative"),
     _STORED["attractive_force"],
     _STORED["adhesive_area_fraction"],
     _STORED["interface_energy"],

@@ -48,6 +48,7 @@ class AdhesionWork(Work):
         loop = None if solved.path is None else adhesion_loop(solved.path.steps)
         problem, law = solved.problem, found.law
         values: dict[str, Any] = {
+            "adhesive_external_force": found.external_force,
             "attractive_force": found.attractive_force,
             "adhesive_area_fraction": found.adhesive_area_fraction,
             "interface_energy": found.interface_energy,

@@ -4,7 +4,7 @@ in numbers, figures and words."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain, groupby
 from typing import Any
@@ -17,9 +17,10 @@ from ...core.errors import InputError
 from ...core.units import percent, show, times
 from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work, require_step
 from ...plots.picture import Figure
-from ...solids.elastic import TABOR, Rigid
+from ...solids.elastic import TABOR, Rigid, yield_pressure
+from ...solids.layers import Layered, materials_of
 from .figures import line_figures, map_figure
-from .part import _LARGEST, StoredSurvey
+from .part import _LARGEST, StoredSurvey, StressSettings
 from .peaks import FAILS, Peak, peak_text, verdict
 from .regions import Region
 from .survey import Planned, StressRequest, StressSurvey, SurveyedSection, survey
@@ -39,6 +40,16 @@ class StressWork(Work):
                 f"other body ({{stress.inside={other}}})."
             )
         ask.check(problem)
+
+    def unknown(self, ask: StressRequest, problem: ContactProblem) -> Mapping[str, str]:
+        """Stresses of interfaces of a body that has none."""
+        body = getattr(problem, ask.of)
+        if isinstance(body, Layered) and body.reduced.layers:
+            return {}
+        return dict.fromkeys(
+            ("max_interface_shear", "max_interface_peel"),
+            "a layer is missing. Give the body one, such as DLC:5nm/steel",
+        )
 
     def course(self, ask: StressRequest, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """The same steps; InputError if the one that is asked for is not among them."""
@@ -139,6 +150,19 @@ class StressWork(Work):
 
 class YieldingWork(Work):
     """Onset of yield under the stresses: what is done for it."""
+
+    def unknown(self, ask: StressSettings, problem: ContactProblem) -> Mapping[str, str]:
+        """Onset of yield where the strength of a layer or of the base is not known."""
+        solids = materials_of(getattr(problem, ask.inside))
+        names = dict.fromkeys(
+            part.name or "a material" for part in solids if yield_pressure(part.strength).value is None
+        )
+        if not names:
+            return {}
+        return {
+            "yield_load_factor": f"yield stress and hardness of {' and '.join(names)} are not known. Give one of them, "
+            "as {yield_stress}"
+        }
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Load factor of the survey. InputError if that failed."""

@@ -1,0 +1,361 @@
+"""Parameters of a contact fitted to a measured curve, with what the curve says of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from ..core.errors import ConvergenceError, InputError
+from ..core.scipy_parts import optimize
+from ..core.units import percent
+from ..io.schemas.calibration import CalibrationTable
+from ..io.schemas.design import DesignTable
+from ..io.schemas.study import AxisTable
+from .calibration import Calibration, CurvePoint, Fitted
+from .curve import Curve, read_curve
+from .design.evaluation import Evaluation, Here
+from .design.optimise import Progress, kept, loaded_study
+from .design.problem import Criterion, DesignProblem, Site, make_design
+from .design.search import Search
+from .documents import LoadedStudy
+from .executors import Executor
+from .local import LocalProcesses
+from .plan import measures
+from .store import Record
+
+CORRELATED, UNKNOWN = 0.95, 0.25
+"""Correlation of two parameters, and relative standard deviation of one, from which a curve does
+not tell them."""
+
+LIKELY = 3.8414588
+"""Rise of the sum of squares at the ends of an interval of 95 % (chi squared of one parameter)."""
+
+FAR, NEAR = 4.0, 0.02
+"""How far a profile reaches in standard deviations, and the least width in logarithms."""
+
+
+def calibrate(
+    study: str | Path | Mapping[str, Any],
+    folder: str | Path | None = None,
+    *,
+    workers: int = 1,
+    retry: bool = False,
+    progress: Progress | None = None,
+) -> Calibration:
+    """Fit modulus, thickness, hardness or work of adhesion to a measured curve.
+
+    The study document has a table ``[calibration]``: a CSV file of load and approach, load and
+    area, or approach and force, with units in its head, and the scalars of the problem to be fitted
+    within bounds. Their logarithms are sought by least squares (Levenberg & Marquardt in a trust
+    region), each value weighted by its standard deviation; the Jacobian is that of the contact on
+    its set where it has one, else from central differences. Priors are further residuals. The
+    covariance is (JᵀJ)⁻¹; where it says that the curve does not tell the parameters, their
+    intervals are those of the profile likelihood.
+
+    Parameters
+    ----------
+    study
+        Study document (TOML or JSON file), or its content as nested dictionaries, whose relative
+        paths begin here.
+    folder, workers, retry, progress
+        As for ``optimise``.
+
+    Raises
+    ------
+    InputError
+        If a parameter leads nowhere or is not positive, a column of the curve is no quantity or has
+        no unit, or there are fewer values than parameters.
+    FileFormatError
+        If the curve cannot be read.
+    ConvergenceError
+        If no contact could be computed.
+    """
+    loaded, target = loaded_study(study, folder)
+    table = loaded.document.calibration
+    if table is None:
+        raise InputError("study of a calibration must have the table [calibration], but has none.")
+    file = (loaded.folder / table.curve).absolute()
+    curve = read_curve(file, loaded, table.noise)
+    table = table.model_copy(update={"curve": str(file)})
+    loaded = replace(loaded, document=loaded.document.model_copy(update={"calibration": table}))
+    problem = make_design(_as_design(loaded, table, curve))
+    if any(not each.log for each in problem.numbers):
+        name = next(each.place.path for each in problem.numbers if not each.log)
+        raise InputError(f"low of {name} must be above zero to be fitted, but is not.")
+    with ExitStack() as stack:
+        executor: Executor = Here() if workers == 1 else stack.enter_context(LocalProcesses(workers).kept())
+        store, known = None, dict[str, Record]()
+        if target is not None:
+            store, known = stack.enter_context(kept(target, loaded, retry=retry))
+        evaluation = Evaluation(problem, executor, store, known, progress or (lambda solved, found: None))
+        return _Fit(problem, evaluation, table, curve).answer()
+
+
+def _as_design(study: LoadedStudy, table: CalibrationTable, curve: Curve) -> LoadedStudy:
+    """The study whose variables are the parameters, and whose cases are the points of the curve."""
+    keys = ("path", "name", "low", "high", "start", "also")
+    variables = [{key: getattr(item, key) for key in keys if getattr(item, key)} for item in table.parameters]
+    first = next(iter(curve.values))
+    settings = {"minimise": first, "variables": variables, "step": table.step, "starts": table.starts}
+    design = DesignTable.model_validate({**settings, "seed": table.seed, "tolerance": table.tolerance})
+    axis = AxisTable(path=curve.path, name="point", values=tuple(_value(text) for text in curve.texts))
+    update = {"design": design, "calibration": None, "axes": (axis,), "quantities": tuple(curve.values)}
+    return LoadedStudy(study.document.model_copy(update=update), study.problem, study.folder)
+
+
+def _value(text: str) -> str | float:
+    return text if " " in text else float(text)
+
+
+@dataclass(eq=False)
+class _Fit:
+    """Least squares of one curve."""
+
+    problem: DesignProblem
+    evaluation: Evaluation
+    table: CalibrationTable
+    curve: Curve
+
+    def __post_init__(self) -> None:
+        known, count = measures(), len(self.curve.loads)
+        cases = tuple(range(count))
+        self.criteria = [
+            Criterion(name, known[name].unit, known[name].label, larger=False, over="each", cases=cases)
+            for name in self.curve.values
+        ]
+        self.search = Search(self.problem, self.evaluation)
+        self.priors = [
+            (n, math.log(each.place.number(item.prior)), float(item.deviation))
+            for n, (each, item) in enumerate(zip(self.problem.numbers, self.table.parameters, strict=True))
+            if item.prior is not None and item.deviation is not None
+        ]
+        least = len(self.problem.numbers)
+        there = count * len(self.criteria) + len(self.priors)
+        if there < least:
+            raise InputError(f"curve of a calibration must hold at least {least} values, but holds {there}.")
+
+    def residuals(self, shares: RealArray) -> RealArray:
+        """Differences of model and curve over their deviations, and those of the priors."""
+        site = self.problem.place((), shares)
+        (found,) = self.evaluation([site])
+        if found.error:
+            return np.full(sum(map(len, self.curve.values.values())) + len(self.priors), 1e3)
+        rows = [
+            (self.evaluation.value(each, found) - self.curve.values[each.name]) / self.curve.deviations[each.name]
+            for each in self.criteria
+        ]
+        known = [(math.log(site.values[n]) - mean) / deviation for n, mean, deviation in self.priors]
+        return np.asarray(np.nan_to_num(np.concatenate([*rows, np.array(known)]), nan=1e3))
+
+    def jacobian(self, shares: RealArray) -> RealArray:
+        """Derivatives of the residuals to the shares of the ranges."""
+        site = self.problem.place((), shares)
+        (found,) = self.evaluation([site])
+        numbers = range(len(self.problem.numbers))
+        known = {(c.name, n): self.evaluation.slope(c, found, n) for c in self.criteria for n in numbers}
+        lacking = [n for n in numbers if any(known[each.name, n] is None for each in self.criteria)]
+        around = self.search.neighbours(site, lacking)
+        self.evaluation([one for pair in around.values() for one in pair])
+        columns = []
+        for n in numbers:
+            each, parts = self.problem.numbers[n], []
+            for criterion in self.criteria:
+                slope = known[criterion.name, n]
+                if slope is None:
+                    low, high = self.evaluation(around[n])
+                    width = each.share(high.site.values[n]) - each.share(low.site.values[n])
+                    slope = (self.evaluation.value(criterion, high) - self.evaluation.value(criterion, low)) / width
+                else:
+                    slope = slope * each.rate(site.values[n])
+                parts.append(slope / self.curve.deviations[criterion.name])
+            parts.append(np.array([float(n == at) * each.width / deviation for at, _, deviation in self.priors]))
+            columns.append(np.concatenate(parts))
+        return np.asarray(np.nan_to_num(np.stack(columns, axis=-1)))
+
+    def fitted(self, first: RealArray, fixed: dict[int, float] | None = None) -> Any:
+        """Answer of the least squares from the shares ``first``, some of them ``fixed``."""
+        fixed = fixed or {}
+        free = [n for n in range(len(first)) if n not in fixed]
+
+        def whole(part: RealArray) -> RealArray:
+            made = np.array(first, dtype=float)
+            made[free] = part
+            for n, value in fixed.items():
+                made[n] = value
+            return made
+
+        least_squares: Any = optimize.least_squares
+        accuracy = self.table.tolerance
+        return least_squares(
+            lambda part: self.residuals(whole(part)),
+            np.clip(np.asarray(first)[free], 1e-6, 1.0 - 1e-6),
+            jac=lambda part: self.jacobian(whole(part))[:, free],
+            bounds=(0.0, 1.0),
+            xtol=accuracy / max(each.width for each in self.problem.numbers),
+            ftol=accuracy**2,
+            gtol=1e-12,
+            max_nfev=min(self.table.max_iterations, FEW) if fixed else self.table.max_iterations,
+        )
+
+    def answer(self) -> Calibration:
+        """Parameters with their deviations, correlations and intervals."""
+        starts = self.search.starts()
+        fits = sorted((self.fitted(first) for first in starts), key=lambda fit: float(fit.cost))
+        best, numbers = fits[0], self.problem.numbers
+        site = self.problem.place((), best.x)
+        (found,) = self.evaluation([site])
+        if found.error:
+            raise ConvergenceError(f"No contact could be computed; the first failed: {found.error}")
+        told = self._told(self.problem.shares(site))
+        deviations, telling = told.deviations, _findings([each.name for each in numbers], told)
+        profiles = {n: self.profile(n, best.x, float(best.cost), deviations[n]) for n in telling.doubtful}
+        factors = np.exp(np.outer(1.96 * deviations, (-1.0, 1.0)))
+        intervals = [profiles[n][1] if n in profiles else factors[n] * site.values[n] for n in range(len(numbers))]
+        chi = 2.0 * float(best.cost)
+        freedom = best.fun.size - len(numbers)
+        findings = [
+            f"{each.name} lies at the {end} end of its range: give a wider one, if that can be."
+            for each, share in zip(numbers, best.x, strict=True)
+            for end, gap in (("lower", share), ("upper", 1.0 - share))
+            if gap < AT_END
+        ]
+        findings += telling.texts
+        if freedom > 0 and chi / freedom > 4.0:
+            off = math.sqrt(chi / freedom)
+            text = f"The fit is {off:.2g} deviations off on the mean: model or noise are not right."
+            findings.append(text)
+        return Calibration(
+            title=self.problem.plan.document.title,
+            parameters=tuple(
+                Fitted(each.name, each.place.path, each.place.unit, value, float(deviation), *map(float, interval))
+                for each, value, deviation, interval in zip(numbers, site.values, deviations, intervals, strict=True)
+            ),
+            correlation=tuple(tuple(map(float, row)) for row in told.correlation),
+            singular_values=tuple(map(float, told.singular)),
+            directions=tuple(tuple(map(float, row)) for row in told.directions),
+            chi_squared=chi,
+            freedom=freedom,
+            curve=tuple(self._points(site)),
+            profiles={numbers[n].name: profile for n, (profile, _) in profiles.items()},
+            findings=tuple(findings),
+            identifiable=not telling.doubtful,
+            converged=bool(best.status > 0),
+            agreeing=sum(float(fit.cost) <= 1.01 * float(best.cost) + 0.01 for fit in fits),
+            starts=len(fits),
+            solves=self.evaluation.solved,
+            reused=self.evaluation.reused,
+        )
+
+    def _told(self, shares: RealArray) -> _Told:
+        """What the Jacobian to the logarithms at ``shares`` tells, by its singular values."""
+        widths = np.array([each.width for each in self.problem.numbers])
+        _, singular, right = np.linalg.svd(self.jacobian(shares) / widths, full_matrices=False)
+        spread = right.T / np.maximum(singular, 1e-12 * max(float(singular[0]), 1.0))
+        covariance = spread @ spread.T
+        deviations = np.sqrt(np.diag(covariance))
+        return _Told(deviations, covariance / np.outer(deviations, deviations), singular, right)
+
+    def _points(self, site: Site) -> list[CurvePoint]:
+        (found,) = self.evaluation([site])
+        made = []
+        for each in self.criteria:
+            model = self.evaluation.value(each, found)
+            columns = self.curve.loads, self.curve.values[each.name], self.curve.deviations[each.name], model
+            rows = zip(*columns, strict=True)
+            made += [CurvePoint(self.curve.path, each.name, each.unit, *map(float, row)) for row in rows]
+        return made
+
+    def profile(
+        self, number: int, best: RealArray, cost: float, deviation: float
+    ) -> tuple[tuple[tuple[float, float], ...], tuple[float, float]]:
+        """Values of a parameter with the rise of the sum of squares when all others are fitted to
+        them, and the interval in which it is below that of 95 %."""
+        each = self.problem.numbers[number]
+        reach = min(max(FAR * deviation, NEAR), each.width)
+        points = [(float(best[number]), 0.0)]
+        for side in (-1.0, 1.0):
+            first, rise = np.array(best), 0.0
+            for step in (0.06, 0.15, 0.4, 1.0):
+                share = float(np.clip(best[number] + side * step * reach / each.width, 0.0, 1.0))
+                if rise > LIKELY or abs(share - points[-1][0]) < 1e-9:
+                    break
+                found = self.fitted(first, {number: share}) if len(best) > 1 else None
+                first[number] = share
+                if found is None:
+                    rise = float((self.residuals(first) ** 2).sum()) - 2.0 * cost
+                else:
+                    first[[n for n in range(len(best)) if n != number]] = found.x
+                    rise = 2.0 * (float(found.cost) - cost)
+                points.append((share, max(rise, 0.0)))
+        points.sort()
+        shares, rises = np.array(points).T
+        return (
+            tuple((each.value(share), float(rise)) for share, rise in points),
+            _interval(each.value, shares, rises, float(best[number])),
+        )
+
+
+def _interval(value: Any, shares: RealArray, rises: RealArray, best: float) -> tuple[float, float]:
+    """Where the rise passes ``LIKELY`` on both sides, interpolated in its root; the ends where it
+    does not."""
+    ends = []
+    for side in (-1.0, 1.0):
+        chosen = side * (shares - best) >= 0.0
+        order = np.argsort(np.abs(shares[chosen] - best))
+        x, y = shares[chosen][order], np.sqrt(rises[chosen][order])
+        above = np.flatnonzero(y > math.sqrt(LIKELY))
+        if not above.size:
+            ends.append(float(value(x[-1])))
+            continue
+        n = int(above[0])
+        share = (math.sqrt(LIKELY) - y[n - 1]) / (y[n] - y[n - 1])
+        ends.append(float(value(x[n - 1] + share * (x[n] - x[n - 1]))))
+    return ends[0], ends[1]
+
+
+AT_END = 1e-3
+"""Share of the range within which a value counts as one at its end."""
+
+FEW = 6
+"""Steps of a fit of a profile, which begins at the one beside it."""
+
+
+class _Told(NamedTuple):
+    """Relative standard deviations (n,), correlation (n, n), singular values (n,) and directions
+    (n, n) of the parameters."""
+
+    deviations: RealArray
+    correlation: RealArray
+    singular: RealArray
+    directions: RealArray
+
+
+class _Telling(NamedTuple):
+    doubtful: tuple[int, ...]
+    texts: tuple[str, ...]
+
+
+def _findings(names: Sequence[str], told: _Told) -> _Telling:
+    """Parameters that the curve does not tell, and words on why."""
+    texts, doubtful = [], set[int]()
+    deviations, correlation = told.deviations, told.correlation
+    for n, deviation in enumerate(deviations):
+        if not deviation <= UNKNOWN:
+            doubtful.add(n)
+            shown = percent(float(deviation), 2) if deviation < 1.0 else "more than 100 %"
+            texts.append(f"The curve does not tell {names[n]}: its standard deviation is {shown}.")
+        for k in range(n):
+            if abs(correlation[n, k]) > CORRELATED:
+                doubtful |= {n, k}
+                texts.append(
+                    f"The curve does not tell {names[k]} and {names[n]} apart: their correlation is "
+                    f"{correlation[n, k]:.3f}. Give a prior for one of them, or a wider range of loads."
+                )
+    return _Telling(tuple(sorted(doubtful)), tuple(texts))

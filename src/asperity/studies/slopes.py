@@ -1,0 +1,152 @@
+"""Derivatives of quantities of a case to scalars of its document, by the sensitivities of the
+contact."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..contact.result import ContactResult
+from ..core.errors import AsperityError
+from ..io.schemas.bodies import LayerTable
+from ..io.schemas.problem import PerLength
+from ..physics.sensitivities.answer import Sensitivities
+from ..physics.sensitivities.outputs import Output, Slopes, State
+from ..physics.sensitivities.sensitivities import sensitivities
+from ..run.document import ProblemDocument
+from ..run.execute import Outcome
+
+SAME = 1e-3
+"""Relative difference of a quantity and of the output that is differentiated, up to which the
+derivative is that of the quantity."""
+
+
+@dataclass(frozen=True)
+class LargestPressure:
+    """Pressure of the pixel with the largest one, whose derivative is that of the maximum as long
+    as it stays there."""
+
+    name: str = "max_pressure"
+    unit: str = "Pa"
+    degree: float | None = 1.0
+
+    def at(self, state: State) -> Slopes:
+        """Value and partial derivatives."""
+        slope = np.zeros(state.pressure.shape)
+        where = int(np.argmax(state.pressure))
+        slope.flat[where] = 1.0
+        return Slopes(float(state.pressure.flat[where]), slope)
+
+
+OUTPUTS: MappingProxyType[str, str | Output] = MappingProxyType(
+    {
+        "approach": "approach",
+        "mean_gap": "mean_gap",
+        "elastic_energy": "elastic_energy",
+        "force": "force",
+        "max_pressure": LargestPressure(),
+    }
+)
+"""Output of the sensitivities for each quantity of studies that has one."""
+
+CONSTANTS = ("thickness", "youngs_modulus", "poisson_ratio")
+"""Constants of layers and bases that have derivatives."""
+
+
+def slope_name(quantity: str, path: str) -> str:
+    """Name in a record of the derivative of a ``quantity`` to the scalar at ``path``."""
+    return f"{quantity} by {path}"
+
+
+def differentiable(quantities: Iterable[str]) -> bool:
+    """Whether one of the ``quantities`` may have derivatives."""
+    return any(name in OUTPUTS for name in quantities)
+
+
+class Parameter(NamedTuple):
+    """A parameter of the sensitivities by its ``name``, and its change by one of the scalar, of
+    heights relative."""
+
+    name: str
+    factor: float
+
+
+def parameter(document: ProblemDocument, path: str, result: ContactResult) -> Parameter | None:
+    """The parameter of ``result`` that the scalar at ``path`` of its ``document`` sets; None where
+    there is none.
+
+    A mean pressure p is the force p A; heights of a random surface are proportional to its rms
+    height.
+    """
+    keys, given = path.split("."), document.control
+    if path == "control.mean_pressure":
+        return Parameter("force", result.problem.grid.area)
+    if path == "control.force" and not isinstance(given.force, PerLength):
+        return Parameter("force", 1.0)
+    if path == "control.approach":
+        return Parameter("approach", 1.0)
+    if path == "law.hardness":
+        return Parameter("hardness", 1.0)
+    if path == "surface.spectrum.rms_height":
+        found: Any = document.surface
+        plain = found.kind == "rough" and not found.prepare and document.counter_surface is None
+        return Parameter("heights", 1.0 / float(found.spectrum.rms_height)) if plain else None
+    if keys[0] not in ("body", "counter_body") or keys[-1] not in CONSTANTS:
+        return None
+    layers = getattr(document, keys[0]).layers
+    if len(keys) == 2:
+        return Parameter(path, 1.0)
+    if keys[1] == "base" and len(keys) == 3:
+        return Parameter(path, 1.0)
+    if keys[1] != "layers" or len(keys) != 4:
+        return None
+    number = int(keys[2])
+    if not all(isinstance(layer, LayerTable) for layer in layers[: number + 1]):
+        return None  # a graded layer is several
+    return Parameter(f"{keys[0]}.layers[{number}].{keys[3]}", 1.0)
+
+
+def slopes(outcome: Outcome, quantities: Sequence[str], paths: Sequence[str]) -> dict[str, float]:
+    """Derivatives of those of the ``quantities`` that have one to the scalars at ``paths``, by
+    ``slope_name``; what has none is left out."""
+    result, found = outcome.result, dict[str, float]()
+    if not paths or outcome.case is None or not isinstance(result, ContactResult):
+        return found
+    known = {path: parameter(outcome.case.document, path, result) for path in paths}
+    wanted = {path: each for path, each in known.items() if each is not None}
+    if not wanted:
+        return found
+    for quantity in (name for name in quantities if name in OUTPUTS):
+        value = float(outcome.values.get(quantity, math.nan))
+        made = _derivatives(result, OUTPUTS[quantity], [each.name for each in wanted.values()])
+        if made is None or not abs(made.value - value) <= SAME * abs(value):
+            continue
+        for path, each in wanted.items():
+            if each.name not in made.values:
+                continue
+            slope = made[each.name]
+            if each.name == "heights":
+                slope = (np.asarray(slope) * result.problem.profile()).sum()
+            found[slope_name(quantity, path)] = float(np.sum(slope)) * each.factor
+    return found
+
+
+def _derivatives(result: ContactResult, of: str | Output, names: Sequence[str]) -> Sensitivities | None:
+    """Sensitivities to those of the parameters ``names`` that the contact has; None if to none."""
+    try:
+        return sensitivities(result, of, names)
+    except AsperityError:  # the contact or the number has none, or not to one of the parameters
+        pass
+    kept = []
+    for name in names if len(names) > 1 else ():
+        try:
+            sensitivities(result, of, name)
+        except AsperityError:
+            continue
+        kept.append(name)
+    return sensitivities(result, of, kept) if kept else None
