@@ -18,7 +18,8 @@ from ..core.errors import InputError
 from ..core.quantity import Limit, Quantity
 from ..core.status import is_large, require_memory, room_text
 from ..io.description import software
-from ..io.schemas.study import AxisTable, LimitTable, RandomTable, StudyDocument
+from ..io.schemas.axis_values import LimitTable
+from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
 from ..parts.registry import parts, versions
 from ..run.build import stated_points
 from ..run.document import ProblemDocument
