@@ -14,6 +14,7 @@ from ..studies.calibrate import calibrate as fitted
 from ..studies.calibration import Calibration
 from ..studies.design.optimise import folder_of
 from ..studies.local import available_cores
+from .campaigns import Out, Retry, Workers
 from .design import counting, resumable
 from .main import NOT_CONVERGED, OK
 from .show import console, print_files, say, table
@@ -21,13 +22,9 @@ from .show import console, print_files, say, table
 
 def calibrate(
     study: Annotated[Path, typer.Argument(help="Study document with a table [calibration].", metavar="STUDY")],
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder of the results; STUDY-results by default.", metavar="DIR")
-    ] = None,
-    workers: Annotated[
-        int | None, typer.Option("--workers", help="Worker processes; as many as cores by default.", metavar="N")
-    ] = None,
-    retry: Annotated[bool, typer.Option("--retry", help="Try again what has failed.")] = False,
+    out: Out = None,
+    workers: Workers = None,
+    retry: Retry = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, all values in SI.")] = False,
 ) -> None:
     """Fit modulus, thickness, hardness or work of adhesion to a measured curve.

@@ -44,19 +44,24 @@ Folder = Annotated[
 ]
 
 
+Out = Annotated[
+    Path | None, typer.Option("--out", help="Folder of the results; STUDY-results by default.", metavar="DIR")
+]
+Workers = Annotated[
+    int | None, typer.Option("--workers", help="Worker processes; as many as cores by default.", metavar="N")
+]
+Retry = Annotated[bool, typer.Option("--retry", help="Try again what has failed.")]
+
+
 def run(
     study: Annotated[Path, typer.Argument(help="Study document (TOML or JSON).", metavar="STUDY")],
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder of the results; STUDY-results by default.", metavar="DIR")
-    ] = None,
-    workers: Annotated[
-        int | None, typer.Option("--workers", help="Worker processes; as many as cores by default.", metavar="N")
-    ] = None,
+    out: Out = None,
+    workers: Workers = None,
     dask: Annotated[
         str | None,
         typer.Option("--dask", help='Scheduler of a Dask cluster instead, "tcp://host:8786".', metavar="ADDRESS"),
     ] = None,
-    retry: Annotated[bool, typer.Option("--retry", help="Try again what has failed.")] = False,
+    retry: Retry = False,
     yes: Annotated[bool, typer.Option("--yes", help="Do not ask before work of hours.")] = False,
 ) -> None:
     """Run or resume a campaign over many contacts: only missing cases are computed.

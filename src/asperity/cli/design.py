@@ -16,6 +16,7 @@ from ..report.design import write_design_files
 from ..studies.design.answer import Design
 from ..studies.design.optimise import folder_of, optimise
 from ..studies.local import available_cores
+from .campaigns import Out, Retry, Workers
 from .interrupt import INTERRUPTED
 from .main import NOT_CONVERGED, OK
 from .show import console, error_console, print_files, say, table, watching
@@ -23,13 +24,9 @@ from .show import console, error_console, print_files, say, table, watching
 
 def design(
     study: Annotated[Path, typer.Argument(help="Study document with a table [design].", metavar="STUDY")],
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder of the results; STUDY-results by default.", metavar="DIR")
-    ] = None,
-    workers: Annotated[
-        int | None, typer.Option("--workers", help="Worker processes; as many as cores by default.", metavar="N")
-    ] = None,
-    retry: Annotated[bool, typer.Option("--retry", help="Try again what has failed.")] = False,
+    out: Out = None,
+    workers: Workers = None,
+    retry: Retry = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, all values in SI.")] = False,
 ) -> None:
     """Find the best design: thickness, material, roughness or load under limits that must hold.

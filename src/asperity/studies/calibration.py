@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
@@ -11,8 +10,8 @@ from typing import Any
 
 from ..core.units import percent, show
 from ..core.words import printable
-from ..io.atomic import atomic_file
 from ..io.tables import write_table
+from .recorded import Recorded, plain
 
 
 @dataclass(frozen=True)
@@ -55,7 +54,7 @@ class CurvePoint:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Calibration:
+class Calibration(Recorded):
     """Parameters of a contact from a measured curve, all SI.
 
     Attributes
@@ -166,22 +165,8 @@ class Calibration:
 
     def record(self) -> dict[str, Any]:
         """Everything as plain values, SI; what is not known is None."""
-        found: dict[str, Any] = asdict(self)
-        for each in found["parameters"]:
-            each["deviation"] = each["deviation"] if math.isfinite(each["deviation"]) else None
+        found: dict[str, Any] = plain(asdict(self))
         return found | {"verdict": self.verdict}
-
-    def save_json(self, path: str | Path, *, overwrite: bool = False) -> None:
-        """Write ``record`` to the JSON file ``path``, whole or not at all.
-
-        Raises
-        ------
-        OutputError
-            If the file exists and ``overwrite`` is false, or cannot be written.
-        """
-        with atomic_file(path, overwrite=overwrite) as partial:
-            text = json.dumps(self.record(), indent=2, ensure_ascii=False)
-            partial.write_text(text + "\n", encoding="utf-8", newline="\n")
 
     def save_csv(self, path: str | Path, *, overwrite: bool = False) -> None:
         """Write the curve with the model beside it to the CSV file ``path``, SI; errors as of

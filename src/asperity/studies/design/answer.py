@@ -3,7 +3,6 @@ is."""
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field
@@ -12,9 +11,9 @@ from typing import Any
 
 from ...core.units import percent, show
 from ...core.words import printable
-from ...io.atomic import atomic_file
 from ...io.description import software
 from ...io.tables import write_table
+from ..recorded import Recorded, plain
 
 Value = float | str
 """Value of a variable: SI, or the choice."""
@@ -132,7 +131,7 @@ class FrontPoint:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Design:
+class Design(Recorded):
     """A recommended design, all SI.
 
     Attributes
@@ -275,20 +274,8 @@ class Design:
 
     def record(self) -> dict[str, Any]:
         """Everything as plain values, SI; what is not known is None."""
-        found: dict[str, Any] = _plain(asdict(self))
+        found: dict[str, Any] = plain(asdict(self))
         return found | {"agreeing": self.agreeing, "active": list(self.active), "verdict": self.verdict}
-
-    def save_json(self, path: str | Path, *, overwrite: bool = False) -> None:
-        """Write ``record`` to the JSON file ``path``, whole or not at all.
-
-        Raises
-        ------
-        OutputError
-            If the file exists and ``overwrite`` is false, or cannot be written.
-        """
-        with atomic_file(path, overwrite=overwrite) as partial:
-            text = json.dumps(self.record(), indent=2, ensure_ascii=False)
-            partial.write_text(text + "\n", encoding="utf-8", newline="\n")
 
     def save_csv(self, path: str | Path, *, overwrite: bool = False) -> None:
         """Write variables, objective and constraints to the CSV file ``path``, SI; errors as of
@@ -328,11 +315,3 @@ def _row(each: Margin) -> tuple[str, ...]:
     price = "" if math.isnan(each.price) else f"objective {each.price:+.3g} %"
     limit, value = _text(each.limit, each.unit), _text(each.value, each.unit)
     return each.label, each.goal, limit, value, _share(each.margin), state, price, each.case
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
