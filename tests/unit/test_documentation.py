@@ -551,10 +551,11 @@ def test_the_materials_of_the_guide_are_valid(tmp_path):
 
 
 def test_the_studies_of_the_guide(tmp_path, monkeypatch):
-    """The sweep of the page runs; each kind of study is a valid addition to it."""
+    """The sweep of the page runs; each kind of study is a valid addition to it, and so are
+    expressions and limits."""
     monkeypatch.chdir(tmp_path)
     page = ROOT / "docs/how-to/campaigns.md"
-    sweep, *kinds = blocks(page, "toml")
+    sweep, expressions, axis, *kinds = blocks(page, "toml")
     problem = """
         version = 1
         body = "E=140GPa,nu=0.25:5nm/E=200GPa,nu=0.3"
@@ -577,6 +578,7 @@ def test_the_studies_of_the_guide(tmp_path, monkeypatch):
     head = sweep.partition("[[axes]]")[0]
     found = {study_from_table(tomllib.loads(head + kind), Path()).document.kind for kind in kinds}
     assert found == {"monte_carlo", "convergence", "critical_thickness", "sensitivity"}
+    assert make_plan(study_from_table(tomllib.loads(head + expressions + axis), Path())).columns[-1] == "Y"
     for kind in kinds:
         make_plan(study_from_table(tomllib.loads(head + kind), Path()))
 

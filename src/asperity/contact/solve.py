@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextvars import copy_context
+from copy import copy
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from threading import Event
@@ -44,7 +45,7 @@ from .operators import Operator, prepare_operator
 from .problem import ContactProblem, Preparing, require_borne
 from .result import ContactResult, added, assemble
 from .solvers.active_set.solver import ActiveSet
-from .solvers.protocol import Solver
+from .solvers.protocol import Iterative, Solver
 from .state import InterfaceState
 from .time_division import TimeSteps
 
@@ -297,6 +298,15 @@ class Prepared:
         relaxing = relaxes(problem.body) or relaxes(problem.counter_body)
         self.in_time: InTime | None = role("in_time")(self) if relaxing else None
 
+    def loosened(self, factor: float) -> Prepared:
+        """The same to a tolerance ``factor`` times as large, for a contact that only leads to
+        another."""
+        if not isinstance(self.solver, Iterative):
+            return self
+        looser = copy(self)
+        looser.solver = replace(self.solver, tolerance=min(factor * self.solver.tolerance, 0.1))
+        return looser
+
     def settled(
         self,
         step: Step,
@@ -315,8 +325,8 @@ class Prepared:
         control, dented, start = step.normal, self.profile, None
         if state is not None:
             state.require_shape(self.profile.shape)
-            if (indentation := state.permanent_indentation).any():
-                dented = self.profile - indentation
+            if state.is_dented:
+                dented = self.profile - state.permanent_indentation
             start = state.pressure if state.pressure.any() else None
         require_borne(self.problem, control)
         if isinstance(control, Approach | MeanGap):

@@ -47,7 +47,9 @@ class InterfaceState:
     deflections: Deflections | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
-        fields = [(self.pressure, "pressure (Pa)"), (self.permanent_indentation, "permanent indentation (m)")]
+        fields = [(self.pressure, "pressure (Pa)")]
+        if self.is_dented:
+            fields.append((self.permanent_indentation, "permanent indentation (m)"))
         if self.earlier is not None:
             fields.append((self.earlier, "earlier pressure (Pa)"))
         for values, what in fields:
@@ -65,6 +67,12 @@ class InterfaceState:
         Pa and plastic work in J."""
         memory = {"indentation": permanent_indentation, "work": np.asarray(plastic_work)}
         return cls(pressure, {"hardness": memory})
+
+    @property
+    def is_dented(self) -> bool:
+        """Whether plastic flow has removed anything so far."""
+        found = self.memory.get("hardness", {}).get("indentation")
+        return found is not None and bool(np.any(found))
 
     @property
     def permanent_indentation(self) -> RealArray:

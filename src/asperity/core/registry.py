@@ -206,6 +206,7 @@ NEEDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "rolling": ("friction",),
         "wear": ("friction", "stress", "rolling"),
         "indentation": ("plastic_flow",),
+        "sensitivities": ("conductance", "stress"),
         "pairs": ("adhesion", "menisci"),
     }
 )
@@ -217,11 +218,12 @@ ROLES: Mapping[str, str] = MappingProxyType(
         "layered_hardness": "physics.hardness.layered:LayeredHardness",
         "limit_by_depth": "physics.hardness.coupling:DepthHardness",
         "in_time": "physics.viscoelastic.in_time:InTime",
+        "derivatives": "physics.sensitivities.of_quantities:derivatives",
     }
 )
 """What the machinery takes from a physics, by what that is: the law of coated bodies, the coupling
-of a limit of the pressure that changes with depth, and what takes over the steps of a prepared
-problem whose bodies relax."""
+of a limit of the pressure that changes with depth, what takes over the steps of a prepared problem
+whose bodies relax, and derivatives of quantities."""
 
 DESCRIBED = (
     "physics.hardness.layered:LayeredHardness",

@@ -5,19 +5,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..contact.result import ContactResult
-from ..core.errors import AsperityError
+from ..core.registry import ROLES, role
 from ..io.schemas.bodies import LayerTable
 from ..io.schemas.problem import PerLength
-from ..physics.sensitivities.answer import Sensitivities
-from ..physics.sensitivities.outputs import Output, Slopes, State
-from ..physics.sensitivities.sensitivities import sensitivities
 from ..run.document import ProblemDocument
 from ..run.execute import Outcome
 
@@ -26,33 +21,11 @@ SAME = 1e-3
 derivative is that of the quantity."""
 
 
-@dataclass(frozen=True)
-class LargestPressure:
-    """Pressure of the pixel with the largest one, whose derivative is that of the maximum as long
-    as it stays there."""
+QUANTITIES = ("approach", "mean_gap", "elastic_energy", "force", "max_pressure")
+"""Quantities that have derivatives."""
 
-    name: str = "max_pressure"
-    unit: str = "Pa"
-    degree: float | None = 1.0
-
-    def at(self, state: State) -> Slopes:
-        """Value and partial derivatives."""
-        slope = np.zeros(state.pressure.shape)
-        where = int(np.argmax(state.pressure))
-        slope.flat[where] = 1.0
-        return Slopes(float(state.pressure.flat[where]), slope)
-
-
-OUTPUTS: MappingProxyType[str, str | Output] = MappingProxyType(
-    {
-        "approach": "approach",
-        "mean_gap": "mean_gap",
-        "elastic_energy": "elastic_energy",
-        "force": "force",
-        "max_pressure": LargestPressure(),
-    }
-)
-"""Output of the sensitivities for each quantity of studies that has one."""
+_ROLE = "derivatives"
+"""What gives them, where this package has it."""
 
 CONSTANTS = ("thickness", "youngs_modulus", "poisson_ratio")
 """Constants of layers and bases that have derivatives."""
@@ -65,7 +38,7 @@ def slope_name(quantity: str, path: str) -> str:
 
 def differentiable(quantities: Iterable[str]) -> bool:
     """Whether one of the ``quantities`` may have derivatives."""
-    return any(name in OUTPUTS for name in quantities)
+    return _ROLE in ROLES and any(name in QUANTITIES for name in quantities)
 
 
 class Parameter(NamedTuple):
@@ -119,11 +92,11 @@ def slopes(outcome: Outcome, quantities: Sequence[str], paths: Sequence[str]) ->
         return found
     known = {path: parameter(outcome.case.document, path, result) for path in paths}
     wanted = {path: each for path, each in known.items() if each is not None}
-    if not wanted:
+    if not wanted or _ROLE not in ROLES:
         return found
-    for quantity in (name for name in quantities if name in OUTPUTS):
+    for quantity in (name for name in quantities if name in QUANTITIES):
         value = float(outcome.values.get(quantity, math.nan))
-        made = _derivatives(result, OUTPUTS[quantity], [each.name for each in wanted.values()])
+        made = role(_ROLE)(result, quantity, [each.name for each in wanted.values()])
         if made is None or not abs(made.value - value) <= SAME * abs(value):
             continue
         for path, each in wanted.items():
@@ -134,19 +107,3 @@ def slopes(outcome: Outcome, quantities: Sequence[str], paths: Sequence[str]) ->
                 slope = (np.asarray(slope) * result.problem.profile()).sum()
             found[slope_name(quantity, path)] = float(np.sum(slope)) * each.factor
     return found
-
-
-def _derivatives(result: ContactResult, of: str | Output, names: Sequence[str]) -> Sensitivities | None:
-    """Sensitivities to those of the parameters ``names`` that the contact has; None if to none."""
-    try:
-        return sensitivities(result, of, names)
-    except AsperityError:  # the contact or the number has none, or not to one of the parameters
-        pass
-    kept = []
-    for name in names if len(names) > 1 else ():
-        try:
-            sensitivities(result, of, name)
-        except AsperityError:
-            continue
-        kept.append(name)
-    return sensitivities(result, of, kept) if kept else None

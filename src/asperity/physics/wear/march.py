@@ -44,6 +44,10 @@ _SAFE, _SHORTER, _LONGER = 0.9, 0.2, 2.5
 """Share of the length that the tolerance allows, and the smallest and largest factor from step to
 step."""
 
+_LOOSER = 10.0
+"""Tolerance of the contact within a step over that of the contact of the worn surfaces, which ends
+the step; 1 and 100 take 12 and 1 % more FFT pairs."""
+
 REPEATED = 2.0
 """Error over the tolerance from which on a step is repeated with a smaller length."""
 
@@ -362,6 +366,8 @@ class March:
 
     def stage(self, prepared: Prepared, interface: InterfaceState, stretch: Stretch, ahead: float | None) -> Stage:
         """Contact at the end of ``stretch``, with its work counted."""
+        if self.steps.number is None:  # the error of the step is much larger
+            prepared = prepared.loosened(_LOOSER)
         found = implicit_stage(prepared, self.step, interface, self.losses, stretch, ahead)
         self.count(found.pairs, found.contacts)
         return found
@@ -372,7 +378,7 @@ class March:
         depths = self.losses.depths(doses)
         prepared = self.prepared(replace(at.state, doses=doses), depths, at.prepared)
         result = self.solved(prepared, interface)
-        return Tried(doses, depths, result, prepared, misplaced, status if result.converged else result.status)
+        return Tried(doses, depths, result, prepared, misplaced, result.status if status.converged else status)
 
     def after(self, at: At, tried: Tried, slid: float, length: float) -> At:
         """After a step that was ``tried`` and stands."""

@@ -224,9 +224,9 @@ class DesignedCaps(Theory):
 
     A cap yields first at the mean pressure k H; with the safety S on its load:
 
-        N ≥ W/(W_c/S - f_m),  W_c = 9 π³ R² (k H)³/(16 E*²),  f_m = 2 π R γ (1 + cos θ).
+        N ≥ W/(W_c/S - f_m),  W_c = 9 π³ R² (k H)³/(16 (E*)²),  f_m = 2 π R γ (1 + cos θ).
 
-    For small f_m the meniscus force over the load is 32 S γ (1 + cos θ) E*²/(9 π² R (k H)³): the
+    For small f_m the meniscus force over the load is 32 S γ (1 + cos θ) (E*)²/(9 π² R (k H)³): the
     larger the caps, the less they stick, down to the three on which a body stands. The number is
     rounded up. Bhushan's 1/3 for k needs half as many caps more.
 
