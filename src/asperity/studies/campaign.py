@@ -175,7 +175,7 @@ def prepare_study(
     _require_cases(loaded)
     campaign = Campaign(target, loaded)
     if refused := campaign.plan.refused():  # all mistakes are found before anything is written
-        raise InputError(f"every case of the study would fail, and so would its problem: {refused}", subject="study")
+        raise InputError(f"every case of the study would fail: {refused}", subject="study")
     if target.is_dir() and any(target.iterdir()) and not (target / STUDY).is_file():
         raise OutputError(
             f"folder of a study must be new, empty, or hold its results, but {target} holds something else; "

@@ -96,12 +96,13 @@ class Plan:
         return problem_table(self.base.document)
 
     def refused(self) -> str:
-        """Why all cases at the ends of the axes would be refused, the base problem too, by the
-        first of them; empty where one would not."""
+        """Why every case would be refused, by the first of them; empty where one would not, or
+        where there are more than are looked at."""
         text = ""
-        ends = itertools.product(*(sorted({0, len(item) - 1}) for item in self.axes))
-        for edits in ((), *map(self.edits, itertools.islice(ends, MOST_ENDS))):
-            found = refusals(edited(self.table, edits), self.base.folder)
+        for number, index in enumerate(itertools.product(*map(range, self.shape))):
+            if number == MOST_LOOKED_AT:
+                return ""
+            found = refusals(edited(self.table, self.edits(index)), self.base.folder)
             if not found:
                 return ""
             text = text or found[0].text
@@ -239,8 +240,9 @@ def limit_of(text: str | float | None, unit: str, what: str) -> float:
     return units.parse(text, "number", what) if unit == "1" else units.parse_in(text, unit, what)
 
 
-MOST_ENDS = 16
-"""Cases that are looked at before the first is solved."""
+MOST_LOOKED_AT = 256
+"""Cases that are looked at before the first is solved, up to one that is not refused: a study whose
+first case can be prepared takes no time for it."""
 
 MOST_POINTS = 100_000
 """Points of an axis that is no axis of samples; each is checked before the first case, which takes

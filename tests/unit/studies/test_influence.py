@@ -115,3 +115,11 @@ def test_what_all_cases_would_miss_is_refused_before_the_first(tmp_path: Path) -
     assert not (tmp_path / "a").exists()
     # an axis may bring what the problem lacks
     prepare_study(study(problem=bare, axes=[{"path": "law.hardness", "values": ["1 GPa", "2 GPa"]}]), tmp_path / "b")
+
+
+def test_one_case_in_the_middle_that_can_be_prepared_is_enough() -> None:
+    """Neither of the materials at the ends of the axis has a hardness, and the problem has none."""
+    soft = {**study()["problem"], "body": {"material": "PDMS"}, "law": {"kind": "hardness", "hardness": "from body"}}
+    materials = {"path": "body.material", "values": ["PDMS", "glass", "rubber"]}
+    assert plan(problem=soft, axes=[materials, LOADS]).refused() == ""
+    assert "hardness" in plan(problem=soft, axes=[{**materials, "values": ["PDMS", "rubber"]}, LOADS]).refused()
