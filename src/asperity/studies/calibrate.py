@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -20,15 +19,12 @@ from ..io.schemas.design import DesignTable
 from ..io.schemas.study import AxisTable
 from .calibration import Calibration, CurvePoint, Fitted
 from .curve import Curve, read_curve
-from .design.evaluation import Evaluation, Here
-from .design.optimise import Progress, kept, loaded_study
+from .design.evaluation import Evaluation
+from .design.optimise import Progress, evaluating, loaded_study
 from .design.problem import Criterion, DesignProblem, Site, make_design
 from .design.search import Search
 from .documents import LoadedStudy
-from .executors import Executor
-from .local import LocalProcesses
 from .plan import measures
-from .store import Record
 
 CORRELATED, UNKNOWN = 0.95, 0.25
 """Correlation of two parameters, and relative standard deviation of one, from which a curve does
@@ -89,12 +85,7 @@ def calibrate(
     if any(not each.log for each in problem.numbers):
         name = next(each.place.path for each in problem.numbers if not each.log)
         raise InputError(f"low of {name} must be above zero to be fitted, but is not.")
-    with ExitStack() as stack:
-        executor: Executor = Here() if workers == 1 else stack.enter_context(LocalProcesses(workers).kept())
-        store, known = None, dict[str, Record]()
-        if target is not None:
-            store, known = stack.enter_context(kept(target, loaded, retry=retry))
-        evaluation = Evaluation(problem, executor, store, known, progress or (lambda solved, found: None))
+    with evaluating(problem, (loaded, target), workers=workers, retry=retry, progress=progress) as evaluation:
         return _Fit(problem, evaluation, table, curve).answer()
 
 

@@ -163,8 +163,7 @@ def prepare_study(
     Relative paths in a dictionary begin at ``start``. A new study that takes much of time, memory
     or disk is told to ``confirm``, in words, before its folder is made.
     """
-    from ..io.atomic import atomic_file
-    from .documents import load_study, study_from_table, study_text
+    from .documents import load_study, study_from_table
     from .plan import BYTES_OF_A_RECORD, large_study
 
     if isinstance(study, Mapping):
@@ -176,30 +175,49 @@ def prepare_study(
     campaign = Campaign(target, loaded)
     if refused := campaign.plan.refused():  # all mistakes are found before anything is written
         raise InputError(f"every case of the study would fail: {refused}", subject="study")
-    if target.is_dir() and any(target.iterdir()) and not (target / STUDY).is_file():
-        raise OutputError(
-            f"folder of a study must be new, empty, or hold its results, but {target} holds something else; "
-            "choose {folder}."
-        )
+    require_own(target)
     there = next(place for place in (target.absolute(), *target.absolute().parents) if place.exists())
     free = shutil.disk_usage(there).free
     if confirm is not None and not (target / STUDY).is_file():  # one that goes on was confirmed when it began
         confirm(large_study(campaign.plan, free))
-    try:
-        target.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(
-            f"folder {target} cannot be made: {error.strerror}; choose another.", subject="folder of a study"
-        ) from error
+    make(target)
     if (needed := BYTES_OF_A_RECORD * campaign.plan.n_cases) > free:
         raise OutputError(
             f"results of {campaign.plan.n_cases} cases need about {needed / 2**30:.3g} GiB, but "
             f"{free / 2**30:.3g} GiB are free at {target}; give fewer points or samples, or {{folder}}.",
             subject=f"results of {campaign.plan.n_cases} cases",
         )
-    with atomic_file(target / STUDY, overwrite=True) as partial:
-        partial.write_text(study_text(loaded, target), encoding="utf-8", newline="\n")
+    write_study(loaded, target)
     return campaign
+
+
+def require_own(folder: Path) -> None:
+    """Refuse a ``folder`` that holds something else than the results of a study with an
+    OutputError."""
+    if folder.is_dir() and any(folder.iterdir()) and not (folder / STUDY).is_file():
+        raise OutputError(
+            f"folder of a study must be new, empty, or hold its results, but {folder} holds something else; "
+            "choose {folder}."
+        )
+
+
+def make(folder: Path) -> None:
+    """Make the ``folder`` of a study; an OutputError if that cannot be."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(
+            f"folder {folder} cannot be made: {error.strerror}; choose another.", subject="folder of a study"
+        ) from error
+
+
+def write_study(study: LoadedStudy, folder: Path) -> None:
+    """Write the document of ``study`` into its ``folder``."""
+    from ..io.atomic import atomic_file
+    from .documents import study_text
+
+    with atomic_file(folder / STUDY, overwrite=True) as partial:
+        partial.write_text(study_text(study, folder), encoding="utf-8", newline="\n")
 
 
 def open_study(folder: str | Path) -> Campaign:

@@ -11,11 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from ...core.errors import ConvergenceError, OutputError
+from ...core.errors import ConvergenceError
 from ...core.units import percent
-from ...io.atomic import atomic_file
-from ..campaign import RECORDS, STUDY
-from ..documents import LoadedStudy, load_study, study_from_table, study_text
+from ..campaign import RECORDS, make, require_own, write_study
+from ..documents import LoadedStudy, load_study, study_from_table
 from ..executors import Executor
 from ..local import LocalProcesses
 from ..store import Record, Store, records
@@ -76,13 +75,28 @@ def optimise(
     """
     loaded, target = loaded_study(study, folder)
     problem = make_design(loaded)
+    with evaluating(problem, (loaded, target), workers=workers, retry=retry, progress=progress) as evaluation:
+        return _design(Search(problem, evaluation))
+
+
+@contextmanager
+def evaluating(
+    problem: DesignProblem,
+    place: tuple[LoadedStudy, Path | None],
+    *,
+    workers: int,
+    retry: bool,
+    progress: Progress | None,
+) -> Iterator[Evaluation]:
+    """What computes designs of ``problem``, with its worker processes and, where the study has a
+    folder (``place``), the store there; errors as of ``optimise``."""
+    loaded, target = place
     with ExitStack() as stack:
         executor: Executor = Here() if workers == 1 else stack.enter_context(LocalProcesses(workers).kept())
         store, known = None, dict[str, Record]()
         if target is not None:
-            store, known = stack.enter_context(kept(target, loaded, retry=retry))
-        evaluation = Evaluation(problem, executor, store, known, progress or (lambda solved, found: None))
-        return _design(Search(problem, evaluation))
+            store, known = stack.enter_context(_kept(target, loaded, retry=retry))
+        yield Evaluation(problem, executor, store, known, progress or (lambda solved, found: None))
 
 
 def loaded_study(study: str | Path | Mapping[str, Any], folder: str | Path | None) -> tuple[LoadedStudy, Path | None]:
@@ -99,22 +113,12 @@ def folder_of(study: str | Path, folder: str | Path | None = None) -> Path:
 
 
 @contextmanager
-def kept(folder: Path, study: LoadedStudy, *, retry: bool) -> Iterator[tuple[Store, dict[str, Record]]]:
+def _kept(folder: Path, study: LoadedStudy, *, retry: bool) -> Iterator[tuple[Store, dict[str, Record]]]:
     """Store in the ``folder`` of a ``study``, made if it is missing, and the records it holds;
     errors as of ``optimise``."""
-    if folder.is_dir() and any(folder.iterdir()) and not (folder / STUDY).is_file():
-        raise OutputError(
-            f"folder of a study must be new, empty, or hold its results, but {folder} holds something else; "
-            "choose {folder}."
-        )
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(
-            f"folder {folder} cannot be made: {error.strerror}; choose another.", subject="folder of a study"
-        ) from error
-    with atomic_file(folder / STUDY, overwrite=True) as partial:
-        partial.write_text(study_text(study, folder), encoding="utf-8", newline="\n")
+    require_own(folder)
+    make(folder)
+    write_study(study, folder)
     with Store(folder / RECORDS) as store:
         found = {record["key"]: record for record in records(folder / RECORDS)}
         yield store, {key: record for key, record in found.items() if record["error"] is None or not retry}
