@@ -284,19 +284,29 @@ def _checked(heights: ArrayLike, mask: ArrayLike | None) -> tuple[RealArray, Boo
             "A map is a Surface; take a row or column of it."
         )
     values: RealArray = np.array(require.field(given[:, None], "profile heights (m)"))[:, 0]
-    missing = np.isnan(values)
-    if mask is not None:
-        marked = np.asarray(mask, dtype=bool)
-        if marked.shape != values.shape:
-            raise InputError(f"profile mask must have the shape of the heights {values.shape}, but has {marked.shape}.")
-        missing |= marked
-    if np.isinf(values).any():
-        raise InputError("profile heights must be finite or NaN (missing), but hold infinities. Mask those points.")
-    if missing.all():
-        raise InputError("profile heights must hold at least one valid point, but every point is missing.")
-    values[missing] = np.nan
-    if (highest := float(np.nanmax(np.abs(values)))) > LEAST:
+    missing, highest = missing_points(values, mask, "profile")
+    if highest > LEAST:
         require.magnitude(highest, "largest height of a profile (m)")
     values.flags.writeable = False
     missing.flags.writeable = False
     return values, missing
+
+
+def missing_points(values: RealArray, mask: ArrayLike | None, kind: str) -> tuple[BoolArray, float]:
+    """Where the heights ``values`` of a ``kind`` of surface are missing, by themselves or by the
+    ``mask``, which are set to NaN there; and the highest of the others (m).
+
+    InputError if the mask has another shape, a height is infinite, or all are missing.
+    """
+    missing = np.isnan(values)
+    if mask is not None:
+        given = np.asarray(mask, dtype=bool)
+        if given.shape != values.shape:
+            raise InputError(f"{kind} mask must have the shape of the heights {values.shape}, but has {given.shape}.")
+        missing |= given
+    if np.isinf(values).any():
+        raise InputError(f"{kind} heights must be finite or NaN (missing), but hold infinities. Mask those points.")
+    if missing.all():
+        raise InputError(f"{kind} heights must hold at least one valid point, but every point is missing.")
+    values[missing] = np.nan
+    return missing, float(np.nanmax(np.abs(values)))

@@ -20,7 +20,7 @@ from ..core.grid import Grid
 from ..core.late import Drawn
 from ..core.units import show
 from ..core.values import LEAST
-from .profile import Profile, no_area
+from .profile import Profile, missing_points, no_area
 
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
@@ -66,7 +66,7 @@ class Surface(Drawn):
         if mask is None and math.isfinite(highest):  # as most are: surfaces that wear are made by the hundred
             missing = np.zeros(values.shape, dtype=bool)
         else:
-            missing, highest = _missing(values, mask)
+            missing, highest = missing_points(values, mask, "surface")
         if highest > LEAST:  # a lower one is flat
             require.magnitude(highest, "largest height of a surface (m)")  # squares of a higher one overflow
         values.flags.writeable = False
@@ -237,20 +237,3 @@ def maps_only(measure: Callable[Concatenate[Surface, P], R]) -> Callable[Concate
         return measure(surface, *args, **kwargs)
 
     return taken
-
-
-def _missing(values: RealArray, mask: ArrayLike | None) -> tuple[BoolArray, float]:
-    """Where ``values`` are missing, by themselves or by the ``mask``, which are set to NaN there;
-    and the highest of the others (m)."""
-    missing = np.isnan(values)
-    if mask is not None:
-        given = np.asarray(mask, dtype=bool)
-        if given.shape != values.shape:
-            raise InputError(f"surface mask must have the shape of the heights {values.shape}, but has {given.shape}.")
-        missing |= given
-    if np.isinf(values).any():
-        raise InputError("surface heights must be finite or NaN (missing), but hold infinities. Mask those points.")
-    if missing.all():
-        raise InputError("surface heights must hold at least one valid point, but every point is missing.")
-    values[missing] = np.nan
-    return missing, float(np.nanmax(np.abs(values)))
