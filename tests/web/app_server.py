@@ -14,6 +14,9 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote, urlsplit
 
+ENDED: set[str] = set()
+"""Hosts, with their ports, of the applications that have ended."""
+
 
 def install_part(folder: Path, module: str, code: str, name: str, made: str) -> None:
     """Put a package into ``folder`` whose ``module`` has the ``code`` of a part, found by the entry
@@ -71,6 +74,7 @@ class AppServer:
         return self.addresses()[-1]
 
     def __exit__(self, *error: object) -> None:
+        ENDED.add(self.host)
         self.process.terminate()
         self.process.wait(timeout=20)
         self.addresses()

@@ -13,6 +13,8 @@ from urllib.parse import urlsplit
 
 import pytest
 
+from .app_server import ENDED
+
 IN_CI = os.environ.get("CI", "").lower() in {"1", "true"}
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
@@ -46,9 +48,14 @@ class Watched:
     outside: list[str] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.page.on("console", lambda said: self.errors.append(said.text) if said.type == "error" else None)
+        self.page.on("console", self._said)
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("request", self._asked)
+
+    def _said(self, said: Any) -> None:
+        lost = any(host in said.text for host in ENDED)  # pages that are still open miss an application that has ended
+        if said.type == "error" and not lost:
+            self.errors.append(said.text)
 
     def _asked(self, request: Any) -> None:
         if (urlsplit(request.url).hostname or "") not in HERE:

@@ -15,6 +15,7 @@ from asperity.web.layout import STEPS
 
 from .app_server import AppServer
 from .colours import contrast
+from .expecting import expect
 from .explored import LONG, keys, solved_in
 
 Open = Callable[..., Any]
@@ -57,8 +58,17 @@ def to(page: Any, name: str, query: str = "") -> None:
     page.wait_for_timeout(1500)
 
 
+STILL = """() => {
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync("*, ::before, ::after { transition: none !important; animation: none !important; }");
+  document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];
+}"""
+
+
 def violations(page: Any, within: str = "html") -> list[str]:
-    """Rule, place and reason of everything that axe-core finds ``within`` an element."""
+    """Rule, place and reason of everything that axe-core finds ``within`` an element whose
+    fading in and out has ended."""
+    page.evaluate(STILL)
     page.evaluate(AXE.read_text(encoding="utf-8"))
     found = page.evaluate(
         "([within, rules]) => axe.run(within, rules).then((all) => all.violations.flatMap((rule) =>"
@@ -149,13 +159,13 @@ def test_every_page_has_language_landmarks_and_is_reached_by_keyboard(app: AppSe
         back = page.url
         to(page, name)
         assert page.evaluate("document.documentElement.lang").startswith("en"), name
-        assert page.locator("main, [role=main]").count() == 1, name
+        expect(page.locator("main, [role=main]")).to_have_count(1)
         assert page.locator("main").get_attribute("aria-label"), name
-        assert page.locator("h1").count() == 1, name
+        expect(page.locator("h1")).to_have_count(1)
         if name != "start":
-            assert page.locator("header").count() == 1, name
-            assert page.locator("nav[aria-label]").count() == 1, name
-            assert page.locator("nav [aria-current=page]").count() == 1, name
+            expect(page.locator("header")).to_have_count(1)
+            expect(page.locator("nav[aria-label]")).to_have_count(1)
+            expect(page.locator("nav [aria-current=page]")).to_have_count(1)
         if name == "explore":
             page.click("[data-spots]")
             page.wait_for_selector("tr[data-spot]", timeout=LONG)
@@ -217,7 +227,7 @@ def test_dark_or_light_is_kept_and_axes_are_legible_in_both(app: AppServer, open
     page.goto(back)
     page.wait_for_selector("[data-ready]", timeout=LONG)
     page.click("[aria-label='dark or light']")
-    assert page.locator("[data-look=dark]").get_attribute("aria-checked") == "true"
+    expect(page.locator("[data-look=dark]")).to_have_attribute("aria-checked", "true")
     page.click("[data-look=system]")
     page.wait_for_function(f"!{is_dark}", timeout=LONG)
     page.reload()

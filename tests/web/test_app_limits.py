@@ -20,6 +20,7 @@ pytest.importorskip("nicegui", reason="the extra web is not installed")
 from asperity.web.workers import LOOK, Limits, Together, Worker, memory_of
 
 from .app_server import AppServer
+from .expecting import expect
 from .test_app import LONG, base_of, finished, go
 from .test_app_uploads import drop
 
@@ -181,9 +182,8 @@ def test_uploads_have_a_limit_in_total(app: AppServer, open_page: Callable[..., 
     for file in files:
         file.write_bytes(bytes(int(1.2 * MIB)))
     drop(page, files)
-    page.wait_for_selector(".drop-state:has-text('2 of 3 files are here')", timeout=LONG)
-    assert "--all-uploads" in page.inner_text(".drop-state")
-    assert page.locator(".file").count() == 2
+    page.wait_for_selector(".drop-state:has-text('2 of 3 files are here'):has-text('--all-uploads')", timeout=LONG)
+    expect(page.locator(".file")).to_have_count(2)
     assert all("413" in text for text in watched.errors)  # the browser's own line about the refused request
     watched.errors.clear()
 

@@ -16,6 +16,7 @@ from asperity.core.registry import FORMS
 from asperity.run.document import checked
 
 from .app_server import AppServer
+from .expecting import expect
 from .test_app import choose, document, fill
 
 HEAD = """
@@ -108,7 +109,7 @@ def test_a_row_shows_what_the_body_will_have_and_its_sources_on_demand(
     assert resolved(page, "body.base")[0] == "150 GPa"
     assert cell(page, "body.layers.0", "H").locator(".mark").inner_text() == "own"
     assert "7.372 GPa" in cell(page, "body.layers.2.bottom", "H").locator(".mark").inner_text()
-    assert page.locator("[data-source]").count() == 0
+    expect(page.locator("[data-source]")).to_have_count(0)
 
     cell(page, "body.layers.0", "E").locator("button").click()
     page.wait_for_selector("[data-source='body.layers.0.youngs_modulus']:has-text('Bhushan')")
@@ -153,14 +154,14 @@ def test_layers_are_added_moved_and_removed_and_all_else_is_folded(
     app: Callable[[str], AppServer], open_page: Callable[..., Any]
 ) -> None:
     page = opened(app(COATED), open_page, "bodies")
-    assert page.locator('[data-key="body.layers.0.interface"]').count() == 0
+    expect(page.locator('[data-key="body.layers.0.interface"]')).to_have_count(0)
     page.click('[data-details="body.layers.0"]')
     choose(page, "body.layers.0.interface", "frictionless")
     page.wait_for_function("document.querySelectorAll('[data-body=body] .slips').length === 2")
     page.locator('[data-move="body.layers.0.later"]').focus()
     page.keyboard.press("Enter")
     page.wait_for_selector('[data-row="body.layers.1"] input[value="DLC"], [data-row="body.layers.1"] :text("DLC")')
-    assert page.evaluate("document.activeElement.dataset.move") == "body.layers.1.later"
+    page.wait_for_selector("[data-move='body.layers.1.later']:focus")
     page.click('[data-remove="body.layers.0"]')
     page.wait_for_selector('[data-row="body.layers.2"]', state="detached")
     page.click('[data-body=body] [data-add="layer"]')
@@ -250,7 +251,7 @@ def test_the_load_comes_first_and_settings_are_folded(
     page.click('[data-setting="boundary"]')
     choose(page, "boundary.kind", "free")
     page.wait_for_selector('[data-setting="boundary"] .q-item__label--caption:has-text("free")')
-    assert page.locator('input[data-key="control.mean_pressure"]').input_value() == "4 MPa"
+    expect(page.locator('input[data-key="control.mean_pressure"]')).to_have_value("4 MPa")
     page.click('[data-key="control.kind"] >> text=Load path')
     page.wait_for_selector('input[data-key="control.mean_pressure"]', state="detached")
     fill(page, "control.path.mean_pressure", "50 MPa, 0, 80 MPa")
@@ -266,15 +267,15 @@ def test_only_chosen_cards_are_unfolded(app: Callable[[str], AppServer], open_pa
     cards = page.locator("[data-card]")
     order = cards.evaluate_all("cards => cards.map(card => card.dataset.card)")
     assert order == [name for names in FORMS.values() for name in names]
-    assert page.locator("[data-card] .picture svg").count() == len(order)
+    expect(page.locator("[data-card] .picture svg")).to_have_count(len(order))
     words = cards.locator(".physics-words > .hint").all_inner_texts()
     assert all(re.fullmatch(r"[A-Z][^.]+\.", text) for text in words)
     unfolded = (
         "cards => cards.filter(card => card.querySelector('.physics-settings').offsetHeight).map(c => c.dataset.card)"
     )
     assert cards.evaluate_all(unfolded) == ["friction"]
-    assert page.locator('input[data-key="friction.coefficient"]').is_visible()
-    assert not page.locator('input[data-key="friction.direction"]').is_visible()
+    expect(page.locator('input[data-key="friction.coefficient"]')).to_be_visible()
+    expect(page.locator('input[data-key="friction.direction"]')).not_to_be_visible()
     page.click('[data-card="friction"] [data-details] .q-item')
     page.wait_for_selector('input[data-key="friction.direction"]')
 

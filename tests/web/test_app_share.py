@@ -28,6 +28,7 @@ from asperity.web.session import Place
 from asperity.web.workers import Limits
 
 from .app_server import AppServer
+from .expecting import expect
 from .test_app import base_of, document, finished, go, put
 
 SCAN = "scan 7 of disk (left).nc"
@@ -148,7 +149,7 @@ def test_an_archive_is_dropped_and_opened(scan: Path, open_page: Callable[..., A
         put(page, bad)
         page.wait_for_selector(".q-notification:has-text('../../etc/passwd')")
         assert document(page) == asked
-        assert page.locator("text=bad.zip is here").count() == 1
+        expect(page.locator("text=bad.zip is here")).to_have_count(1)
 
 
 @pytest.mark.slow

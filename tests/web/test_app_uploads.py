@@ -17,6 +17,7 @@ from asperity.files import save_surface
 from asperity.generate import ExponentialAutocorrelation, gaussian
 
 from .app_server import AppServer
+from .expecting import expect
 from .test_app import LONG, base_of, document, go, start_of
 
 COUNT = 6
@@ -69,10 +70,10 @@ def test_all_files_that_are_dropped_at_once_arrive(
     bad.write_text("these are no heights\n", encoding="utf-8")
     drop(page, [*scans, bad])
     page.wait_for_selector(f".file-picture img >> nth={COUNT - 1}", timeout=LONG)
-    assert page.locator(".file").count() == COUNT + 1
+    expect(page.locator(".file")).to_have_count(COUNT + 1)
     page.wait_for_selector("[data-file='notes.txt'] .bad")
     assert page.inner_text(".file.here .file-words").startswith("scan 1.nc")
-    assert "32 × 32 points, 320 nm × 320 nm, rms" in page.inner_text("[data-file='scan 6.nc']")
+    expect(page.locator("[data-file='scan 6.nc']")).to_contain_text("32 × 32 points, 320 nm × 320 nm, rms")
     assert document(page)["surface"]["path"] == "scan 1.nc"
     sources = page.eval_on_selector_all(".file-picture img", "found => found.map(item => item.src)")
     assert len(set(sources)) == COUNT
@@ -87,7 +88,7 @@ def test_all_files_that_are_dropped_at_once_arrive(
         page.click(f"[data-file='{name}'] .q-checkbox")
     page.click("[data-files=compare]")
     page.wait_for_selector(".compared img", timeout=LONG)
-    assert page.locator("[data-compared]").count() == COUNT - 1
+    expect(page.locator("[data-compared]")).to_have_count(COUNT - 1)
     rows = page.eval_on_selector_all(
         ".spots tbody tr", "found => found.map(row => row.innerText.split('\\t')[0].trim())"
     )

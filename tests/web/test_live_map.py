@@ -11,6 +11,7 @@ import pytest
 pytest.importorskip("nicegui", reason="the extra web is not installed")
 
 from .app_server import AppServer
+from .expecting import expect
 from .test_app import LONG, base_of, choose, document, fill, go, start_of
 
 pytestmark = pytest.mark.slow
@@ -79,7 +80,7 @@ def test_generators_and_steps_show_a_map_with_nothing_typed(page: Any) -> None:
     page.click('[data-add="resample"]')
     page.wait_for_selector("text=7. resample")
     assert "32 × 1 points" in changed(page, "after", told)
-    assert page.locator(".failure").count() == 0
+    expect(page.locator(".failure")).to_have_count(0)
 
 
 def test_the_last_map_stays_beside_what_is_wrong(page: Any) -> None:
@@ -90,7 +91,7 @@ def test_the_last_map_stays_beside_what_is_wrong(page: Any) -> None:
     fill(page, "surface.depth", "5")  # has no unit: said by the entry itself
     arrived(page, state="wrong")
     page.wait_for_selector("label:has([data-key='surface.depth']) .q-field__messages:has-text('Depth')")
-    assert page.locator(".failure").count() == 0
+    expect(page.locator(".failure")).to_have_count(0)
     fill(page, "surface.depth", "")  # is missing: said by the entry, but found by the whole
     page.wait_for_selector("label:has([data-key='surface.depth']) .q-field__messages:has-text('Depth')")
     fill(page, "surface.depth", "30 nm")
@@ -104,7 +105,7 @@ def test_the_last_map_stays_beside_what_is_wrong(page: Any) -> None:
     )
     fill(page, "surface.pitch", "2.5 um")
     arrived(page)
-    assert page.locator(".failure").count() == 0
+    expect(page.locator(".failure")).to_have_count(0)
 
 
 def test_a_step_that_fails_says_so_itself(page: Any) -> None:

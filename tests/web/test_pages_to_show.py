@@ -18,6 +18,7 @@ from asperity.studies.campaign import prepare_study
 from asperity.studies.compare import compare
 from asperity.studies.run import carry_out
 
+from .expecting import expect
 from .test_report_page import PHONE, opened, report  # noqa: F401
 
 Open = Callable[..., Any]
@@ -114,5 +115,5 @@ def test_a_study_that_is_not_done_says_so_first(tmp_path: Path, open_page: Open)
     campaign = prepare_study(study(axes=[LOADS]), tmp_path / "study")
     write_study_report(campaign, tmp_path / "study.html")
     page = open_page(tmp_path / "study.html").page
-    assert "3 cases are missing" in page.locator(".banner").first.inner_text()
+    expect(page.locator(".banner").first).to_contain_text("3 cases are missing")
     assert page.locator("nav[aria-label=Contents] a").count() == page.locator("main h2").count() > 2

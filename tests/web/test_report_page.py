@@ -20,6 +20,7 @@ from asperity.report.scene import decoded, scene_of
 from asperity.run.execute import Outcome
 
 from .colours import contrast
+from .expecting import expect
 
 DOCUMENT = {
     "version": 2,
@@ -265,7 +266,7 @@ def test_stresses_belong_to_one_step_and_leave_with_it(report: Report, open_page
         assert f"step {path.peak + 1} of {len(path.steps)}:" in of_one.nth(number).locator(".av-step").inner_text()
     assert panel(page, "pressure").locator(".av-step").count() == 0
     viewer(page, f"v.set('steps', {len(path.steps) - 1})")
-    assert page.locator(".av-panel:has(.av-step) canvas:visible").count() == 0
+    expect(page.locator(".av-panel:has(.av-step) canvas:visible")).to_have_count(0)
     assert panel(page, "heights").locator("canvas").first.is_visible()
     assert panel(page, "pressure").locator("canvas").first.is_visible()
     assert "planes" not in viewer(page, "v.read(0.5e-6, 0.3e-6)")
@@ -313,7 +314,7 @@ def test_a_map_is_read_and_zoomed_with_the_keyboard(report: Report, open_page: O
     canvas.focus()
     page.keyboard.press("ArrowRight")
     viewer(page, "0")
-    assert page.locator(".av-live").inner_text().startswith("Pressure: ")
+    expect(page.locator(".av-live")).to_have_text(re.compile("^Pressure: "))
     page.keyboard.press("+")
     assert viewer(page, "v.zoom") == pytest.approx(1.5)
     left = viewer(page, "v.centre[0]")
@@ -335,7 +336,7 @@ def test_a_contact_spot_is_marked_as_measured(report: Report, open_page: Open) -
     assert np.isclose(area, result.spot_areas, rtol=1e-9).any()
     assert largest == pytest.approx(result.max_pressure, rel=1e-4)
     page.mouse.click(*place(page, "pressure", (i + 0.5) * dx, (j + 0.5) * dy))
-    assert "area" in page.locator(".av-live").inner_text()
+    expect(page.locator(".av-live")).to_contain_text("area")
 
 
 def test_colours_follow_range_and_scale(report: Report, open_page: Open) -> None:
@@ -408,7 +409,7 @@ def test_print_shows_the_pictures(report: Report, open_page: Open) -> None:
     page = opened(report, open_page)
     page.emulate_media(media="print", color_scheme="dark")
     assert {"Heights", "Pressure", "Contact", "Gap", "Section"} <= pictures(page)
-    assert not page.locator(".av-maps").is_visible()
+    expect(page.locator(".av-maps")).not_to_be_visible()
     assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
 
 
