@@ -114,3 +114,25 @@ def test_a_product_less_each_step():
     for before, result, load in zip(results[1:], results[2:], LOADS[2:], strict=False):
         without = asp.solve(problem, asp.MeanPressure(load), solver=SOLVER, state=forgotten(before.state))
         assert without.certificate.fft_pairs - result.certificate.fft_pairs == 2.0
+
+
+def test_a_contact_goes_on_from_a_known_one_without_a_product():
+    """The same problem needs nothing; one of slightly other heights one product less than without
+    the displacement, with an answer within the bounds of both."""
+    problem, control = posed(), asp.MeanPressure(LOADS[0])
+    found = asp.solve(problem, control, solver=SOLVER)
+    state = replace(found.state, earlier=None, deflections=replace(found.deflections, within=True))
+    again = asp.solve(problem, control, solver=SOLVER, state=state)
+    np.testing.assert_array_equal(again.pressure, found.pressure)
+    assert again.converged
+    assert again.certificate.fft_pairs == 0.0
+    heights = np.asarray(problem.surface.heights)
+    other = replace(problem, surface=asp.Surface(heights + 1e-4 * heights**2 / heights.std(), 1.0))
+    known, forgot = (
+        asp.solve(other, control, solver=SOLVER, state=each)
+        for each in (state, asp.solvers.InterfaceState(state.pressure.copy()))
+    )
+    cold = asp.solve(other, control, solver=SOLVER)
+    assert known.certificate.fft_pairs == forgot.certificate.fft_pairs - 1.0
+    np.testing.assert_allclose(known.pressure, cold.pressure, rtol=0.0, atol=2e-4 * cold.max_pressure)
+    np.testing.assert_array_equal(known.displacement, along_displacement(other, known))

@@ -11,8 +11,12 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.boundary import Free
+from asperity.contact.controls import Step
 from asperity.contact.problem import ContactProblem
+from asperity.contact.solve import Prepared
 from asperity.core.errors import ConvergenceError, InputError
+from asperity.physics.wear.losses import Losses
+from asperity.physics.wear.stage import Stretch, implicit_stage
 from asperity.solids.layers import Layer, Layered
 from asperity.wear import Sides, WearSteps, archard, worn
 
@@ -64,6 +68,23 @@ def test_what_the_checks_of_worn_surfaces_find_is_the_contact_of_the_step() -> N
     # both to a relative error of 1e-7 of the energy: the pressure to the root of that
     assert history.last.pressure == pytest.approx(alone.pressure, abs=1e-3 * alone.max_pressure)
     assert history.last.approach == pytest.approx(alone.approach, rel=1e-5)
+
+
+def test_steps_hand_on_the_displacement_of_the_bodies() -> None:
+    """What the contact of a step hands on to that of the worn surfaces is the product of the bodies
+    alone with its pressure, where a coating wears through, too: what is worn is taken off."""
+    problem, law = rough(), archard(3e-12, layers=[(3e-9, 1e-12)])
+    losses, prepared = Losses.of(Sides(body=law), problem.grid), Prepared(problem)
+    virgin, control = losses.virgin(), Step(asp.MeanPressure(5e7))
+    first = prepared.step(control)
+    worn_by = losses.after(virgin, first.pressure, 20e-6)
+    stage = implicit_stage(prepared, control, first.state, losses, Stretch(virgin, worn_by, 20e-6))
+    depth = losses.hollow(losses.after(worn_by, stage.pressure, 20e-6))
+    assert np.unique(law.stage(losses.after(worn_by, stage.pressure, 20e-6).body)).size == 2, "in both materials"
+    wanted = prepared.operator.apply(stage.pressure)
+    # rounding of the product, and of the depth that is added and taken off
+    atol = 1e-13 * (np.abs(wanted).max() + depth.max())
+    np.testing.assert_allclose(stage.deflection, wanted, rtol=0.0, atol=atol)
 
 
 def test_a_coating_wears_through_in_the_middle_first() -> None:

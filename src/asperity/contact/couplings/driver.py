@@ -430,13 +430,16 @@ class _Iteration:
             if solver.tolerance != tolerance and is_dataclass(solver):
                 settable: Any = {item.name for item in fields(solver) if item.init}
                 solver = replace(solver, tolerance=tolerance) if "tolerance" in settable else solver
-            posed, lone = self.posed, self.last is None and not self.active
-            lone = lone and not isinstance(posed.retarded, np.ndarray)
+            posed = self.posed
             before = [pressure for pressure in (posed.start, posed.earlier) if pressure is not None]
-            if isinstance(solver, ActiveSet) and lone and len(before) == 2 and (ratio := self._ahead(qp)) is not None:
+            if isinstance(solver, ActiveSet) and self.last is None and not self.active:
                 known = [None if posed.deflections is None else posed.deflections.by(p, qp.operator) for p in before]
-                last, earlier = (Loaded(*load) for load in zip(before, known, strict=True))
-                begun = solver.extrapolated(qp, last, earlier, ratio)  # with its deflection
+                loads = [Loaded(*load) for load in zip(before, known, strict=True)]
+                ratio = None if isinstance(posed.retarded, np.ndarray) else self._ahead(qp)
+                if len(loads) == 2 and ratio is not None:
+                    begun = solver.extrapolated(qp, loads[0], loads[1], ratio)  # with its deflection
+                elif posed.deflections is not None and posed.deflections.within and len(loads) == 1:
+                    begun = solver.resumed(qp, loads[0])
             solution = run(solver, qp, None if begun is not None else self._start(qp), self.watched, begun)
             error, asked = solution.state.error, self.solver.tolerance
             if solution.status.outcome is Outcome.STAGNATED and tolerance < error <= asked:

@@ -32,13 +32,15 @@ class Deflections:
 
     They hold for the very arrays of pressure in ``pairs``, and for operators of the same
     ``compliance``, ``boundary`` and ``grid``; the operator itself, whose buffers take as much
-    memory as some steps, is not held.
+    memory as some steps, is not held. ``within`` a step, whose contacts no file comes between, one
+    alone is taken, too; between steps a history that goes on from a file must give the same bits.
     """
 
     compliance: Compliance
     boundary: Boundary
     grid: Grid
     pairs: tuple[tuple[RealArray, RealArray], ...]
+    within: bool = False
 
     def by(self, pressure: RealArray, operator: Operator) -> RealArray | None:
         """Displacement by ``pressure`` under ``operator``; None if it is not known."""

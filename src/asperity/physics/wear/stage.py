@@ -9,6 +9,7 @@ import numpy as np
 
 from ...contact.controls import Step
 from ...contact.couplings.protocol import Coupling, Deflections, Exchange, Memory, Posed
+from ...contact.operators import Operator
 from ...contact.solve import Prepared
 from ...contact.state import InterfaceState
 from ...core.arrays import RealArray
@@ -44,10 +45,12 @@ class Hollow(Coupling):
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """What one stretch comes to: its ``pressure`` (nx, ny) in Pa, how it ended, and the work: FFT
-    ``pairs`` and number of ``contacts``."""
+    """What one stretch comes to: its ``pressure`` (nx, ny) in Pa, by which the bodies deflect by
+    ``deflection`` (nx, ny) in m, how it ended, and the work: FFT ``pairs`` and number of
+    ``contacts``."""
 
     pressure: RealArray
+    deflection: RealArray
     status: Status
     pairs: float
     contacts: int
@@ -80,7 +83,7 @@ def implicit_stage(
         if isinstance(model.bed, np.ndarray) and touching.any():
             least = float(model.bed[touching].min())
         operator = WearOperator(prepared.operator, model.bed, model.track, least)
-        begun = _begun(state, model, operator) if count == 1 else InterfaceState(guess, state.memory)
+        begun = _begun(state, model, operator)
         hollow = model.start if model.start.any() else None
         settled = prepared.settled(
             step,
@@ -94,6 +97,7 @@ def implicit_stage(
         own = found.solution.state
         pairs += own.applications * operator.pairs_per_application + own.extra_pairs
         pressure = found.pressure
+        plain = own.deflection - (model.depth(pressure) - model.start)
         wanted = losses.hollow(losses.after(stretch.doses, pressure, slid)) - losses.hollow(stretch.before)
         miss = float(np.abs(wanted - model.depth(pressure)).max())
         enough = _AGREES * max(float(np.abs(wanted).max()), _AGREES * scale)
@@ -104,13 +108,21 @@ def implicit_stage(
         if count >= _CHORDS_FROM and earlier is not None:
             following = _chords(following, losses, stretch, pressure, earlier)
         earlier, guess, model = pressure, pressure, following
+        state = resumed(state, pressure, plain, operator.whole)
     else:
         status = Status(
             Outcome.ITERATION_LIMIT,
             f"Not converged: the stages of wear still change the depth by {miss:.1e} m after {_MOST} contacts.",
             "Take more steps ({wear.steps}).",
         )
-    return Stage(pressure, status, pairs, count)
+    return Stage(pressure, plain, status, pairs, count)
+
+
+def resumed(state: InterfaceState, pressure: RealArray, deflection: RealArray, operator: Operator) -> InterfaceState:
+    """``state`` with a ``pressure`` to start from, by which the bodies deflect as is known."""
+    pairs = ((pressure, deflection),)
+    known = Deflections(operator.compliance, operator.boundary, operator.grid, pairs, within=True)
+    return InterfaceState(pressure, state.memory, deflections=known)
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,14 +138,16 @@ class Stretch:
 def _begun(state: InterfaceState, model: Linearised, operator: WearOperator) -> InterfaceState:
     """``state`` with the displacements that its pressures cause with wear, where those without are
     known."""
-    pairs = []
-    known = state.deflections
+    known, pairs = state.deflections, []
     for pressure in (state.pressure, state.earlier):
         plain = None if known is None or pressure is None else known.by(pressure, operator.whole)
         if pressure is None or plain is None:
-            return replace(state, deflections=None, earlier=None)
+            break
         pairs.append((pressure, plain + model.depth(pressure) - model.start))
-    return replace(state, deflections=Deflections(operator.compliance, operator.boundary, operator.grid, tuple(pairs)))
+    if known is None or not pairs:
+        return replace(state, deflections=None, earlier=None)
+    found = Deflections(operator.compliance, operator.boundary, operator.grid, tuple(pairs), known.within)
+    return replace(state, deflections=found, earlier=state.earlier if len(pairs) > 1 else None)
 
 
 def _chords(model: Linearised, losses: Losses, stretch: Stretch, pressure: RealArray, other: RealArray) -> Linearised:

@@ -23,6 +23,7 @@ from ....core.errors import InputError
 from ..protocol import (
     ROUNDING,
     ContactQP,
+    FixedMean,
     Iterative,
     SolverState,
     feasible_start,
@@ -135,6 +136,9 @@ class Loaded(NamedTuple):
 _POOR = 0.5
 """Error of a start above which one from coarser grids is better: that of another surface is about
 1."""
+
+_SAME = 1e-12
+"""Relative difference of two mean pressures that counts as rounding."""
 
 _MOST_UNSUCCESSFUL = 2
 """Unclipped steps in a row that may fail to lower the lowest error before systems are solved more
@@ -312,6 +316,27 @@ class ActiveSet(Iterative):
         memory = _Memory(work, survey, error, clipped=clipped, unsuccessful=0, tensile=tensile, tension=tension)
         memory.applications = products
         return self._state(memory)
+
+    def resumed(self, qp: ContactQP, last: Loaded) -> SolverState | None:
+        """State at the ``last`` pressure, which solves a contact like this one, without a product
+        where its deflection is known.
+
+        None where it is not feasible here or too far off, and for other machines than the CPU.
+        """
+        (pressure, deflection), load = last, qp.constraint
+        if deflection is None or not isinstance(qp.operator.engine, CpuEngine) or self.precision == "single":
+            return None
+        prescribed = load.mean_pressure if isinstance(load, FixedMean) else float(pressure.mean())
+        same = abs(float(pressure.mean()) - prescribed) <= _SAME * prescribed
+        if not same or not (qp.elastic or np.all(pressure <= qp.cap)):
+            return None
+        work = Workspace.of(qp, self.precision, pressure.copy(), deflection.copy())
+        survey = work.survey()
+        error = relative_error(work, survey.totals)
+        if error > _POOR and min(qp.profile.shape) > COARSEST:
+            return None
+        unsuccessful = None if self.monotone or work.cap is not None else 0
+        return self._state(_Memory(work, survey, error, clipped=1, unsuccessful=unsuccessful, from_scratch=True))
 
     def loosened(self, tolerance: float) -> ActiveSet:
         """Same solver for a first guess: to ``tolerance``, not for long, and without the deflection
