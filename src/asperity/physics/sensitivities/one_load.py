@@ -141,9 +141,9 @@ def posed(result: ContactResult, operator: Operator) -> State:
     offset = result.offset
     if isinstance(result.control, Approach):
         offset = float(profile.max()) - result.control.value
-    return State(
-        result.problem, operator, pressure, operator.apply(pressure), profile, offset, result.contact & ~capped, capped
-    )
+    known = None if result.deflections is None else result.deflections.by(result.pressure, operator)
+    deflection = operator.apply(pressure) if known is None else known
+    return State(result.problem, operator, pressure, deflection, profile, offset, result.contact & ~capped, capped)
 
 
 @dataclass(frozen=True, eq=False)

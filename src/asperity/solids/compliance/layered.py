@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, TypeAlias
@@ -235,14 +235,17 @@ def lower_face(
     )
 
 
-def interface_compliances(stack: Layered, alpha: ArrayLike) -> tuple[PlaneCompliance, ...]:
+def interface_compliances(
+    stack: Layered, alpha: ArrayLike, matrices: Sequence[LayerMatrices] | None = None
+) -> tuple[PlaneCompliance, ...]:
     """Compliance at the top of every layer of ``stack`` and of its base, index 0 the surface, N the
     top of the base.
 
     ``stack``: layers and base; layers of zero thickness pass on the compliance below them
-    unchanged; ``alpha``: Wavenumbers in rad/m, > 0.
+    unchanged; ``alpha``: Wavenumbers in rad/m, > 0; ``matrices``: those of all layers, where they
+    are known.
     """
-    return _compliances(stack, alpha, lambda solid: (solid.shear_modulus, solid.poisson_ratio))
+    return _compliances(stack, alpha, lambda solid: (solid.shear_modulus, solid.poisson_ratio), matrices)
 
 
 def operational_plane(stack: Layered, alpha: ArrayLike, s: ArrayLike) -> PlaneCompliance:
@@ -262,7 +265,10 @@ def operational_moduli(solid: Elastic, s: ArrayLike) -> tuple[Modulus, Modulus]:
 
 
 def _compliances(
-    stack: Layered, alpha: ArrayLike, moduli: Callable[[Elastic], tuple[Modulus, Modulus]]
+    stack: Layered,
+    alpha: ArrayLike,
+    moduli: Callable[[Elastic], tuple[Modulus, Modulus]],
+    matrices: Sequence[LayerMatrices] | None = None,
 ) -> tuple[PlaneCompliance, ...]:
     """Compliance at the top of every layer and of the base, with the ``moduli`` G and nu of each
     material."""
@@ -272,11 +278,13 @@ def _compliances(
     else:
         compliance = rigid(alpha)
     found = [compliance]
-    for layer in reversed(stack.layers):
+    known: Sequence[LayerMatrices | None] = matrices or [None] * len(stack.layers)
+    for layer, own in zip(reversed(stack.layers), reversed(known), strict=True):
         if layer.thickness > 0.0:
-            G, nu = moduli(layer.material)
-            matrices = layer_matrices(alpha, layer.thickness, shear_modulus=G, nu=nu)
-            compliance = raised(compliance, matrices, layer.interface)
+            if own is None:
+                G, nu = moduli(layer.material)
+                own = layer_matrices(alpha, layer.thickness, shear_modulus=G, nu=nu)
+            compliance = raised(compliance, own, layer.interface)
         found.append(compliance)
     return tuple(reversed(found))
 

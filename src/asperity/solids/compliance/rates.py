@@ -113,17 +113,22 @@ def normal_rates(stack: Layered, alpha: ArrayLike) -> RealArray:
     as the compliance four times.
     """
     alpha = np.asarray(alpha, dtype=float)
-    below = interface_compliances(stack, alpha)
-    traction, rates = PlaneVector(np.zeros_like(alpha), np.ones_like(alpha), np.zeros_like(alpha)), []
-    for layer, under in zip(stack.layers, below[1:], strict=True):
-        material = layer.material
-        for G, nu, thickness, step in _stepped(material, layer.thickness):
-            matrices = layer_matrices(alpha, thickness, shear_modulus=G, nu=nu)
-            rates.append(_answer(raised(under, matrices, layer.interface), traction, step))
-        matrices = layer_matrices(
-            alpha, layer.thickness, shear_modulus=material.shear_modulus, nu=material.poisson_ratio
+    matrices = [
+        layer_matrices(
+            alpha, layer.thickness, shear_modulus=layer.material.shear_modulus, nu=layer.material.poisson_ratio
         )
-        traction = lowered(traction, under, matrices, layer.interface)
+        for layer in stack.layers
+    ]
+    below = interface_compliances(stack, alpha, matrices)
+    traction, rates = PlaneVector(np.zeros_like(alpha), np.ones_like(alpha), np.zeros_like(alpha)), []
+    for layer, own, under in zip(stack.layers, matrices, below[1:], strict=True):
+        for G, nu, thickness, step in _stepped(layer.material, layer.thickness):
+            if nu == layer.material.poisson_ratio and thickness == layer.thickness:  # the modulus is but their unit
+                moved = replace(own, g_alpha=G * alpha)
+            else:
+                moved = layer_matrices(alpha, thickness, shear_modulus=G, nu=nu)
+            rates.append(_answer(raised(under, moved, layer.interface), traction, step))
+        traction = lowered(traction, under, own, layer.interface)
     if isinstance(stack.base, Elastic):
         for G, nu, _, step in _stepped(stack.base):
             rates.append(_answer(half_space(alpha, shear_modulus=G, nu=nu), traction, step))
