@@ -169,11 +169,14 @@ def gradient(table: dict[str, Any], *, known: bool) -> tuple[np.ndarray, np.ndar
 def test_derivatives_of_the_contact_agree_with_differences():
     """Also of samples with their deviation; central differences with a step of 0.5 % have an error
     of its square and that of points which change their state."""
-    load = {"path": "control.mean_pressure", "low": "50 MPa", "high": "400 MPa"}
+    load = {"path": "control.mean_pressure", "name": "p", "low": "50 MPa", "high": "400 MPa"}
     limits = [{"quantity": name, "at_least": "1 nm"} for name in ("mean_gap", "approach")]
+    limits.append({"quantity": "steepness", "at_least": 1e-3})
     design = {"minimise": "max_pressure", "variables": [THICKNESS, RMS_HEIGHT, MODULUS, load], "constraints": limits}
+    derived = {"closed": "log(p / E2) * mean_gap / thickness", "steepness": "closed**2 * sqrt(rms / approach)"}
     samples = {"seed": 1, "samples": 3, "random": [{"path": "surface.seed", "distribution": "seed"}]}
-    table = study(ROUGH, {**design, "step": 5e-3, "robust": 1.5}, monte_carlo=samples)
+    names = {"letters": {"E2": "body.base.youngs_modulus"}, "derived": derived}
+    table = study(ROUGH, {**design, "step": 5e-3, "robust": 1.5}, monte_carlo=samples, **names)
     for one, two in zip(gradient(table, known=True), gradient(table, known=False), strict=True):
         np.testing.assert_allclose(one, two, atol=3e-3 * np.abs(two).max())
 
@@ -197,6 +200,41 @@ def test_scaled_numbers_are_smooth_where_logarithms_end():
     assert found[:2] == pytest.approx([math.log(2.0), 0.0])
     numeric = (scaled(values + step)[0] - scaled(values - step)[0]) / (2.0 * step)
     np.testing.assert_allclose(slope[:3], numeric[:3], rtol=1e-4)
+
+
+# Derived numbers.
+
+
+def test_a_derived_number_is_best_where_its_formula_says():
+    """With δ = c F^(2/3) of Hertz, δ/R + b E R²/F is least at F^(5/3) = 3 b E R³/(2 c), and F δ
+    reaches W at F = (W/c)^(3/5)."""
+    c, best, bound = (9.0 / (16.0 * RADIUS * E_STAR**2)) ** (1.0 / 3.0), 2.0, 4e-6
+    b = best ** (5.0 / 3.0) * 2.0 * c / (3.0 * 1e9 * RADIUS**3)
+    load = {"path": "control.force", "name": "F", "low": "0.2 N", "high": "10 N", "start": "1 N"}
+    derived = {"share": "approach / R", "cost": {"expression": f"share + {b} * E * R**2 / F", "label": "all"}}
+    names = {"letters": {"R": "surface.radius", "E": "body.youngs_modulus"}, "derived": derived | {"W": "F * approach"}}
+    design = {"minimise": "cost", "variables": [load], "tolerance": 1e-6, "starts": 1}
+    found = [asp.optimise(study(ball(points), design, **names)) for points in (33, 65)]
+    assert converging([one["F"] for one in found], best)
+    assert (found[1].objective.label, found[1].objective.unit) == ("all", "1")
+    bounded = {"maximise": "F", "variables": [load], "constraints": [{"quantity": "W", "at_most": f"{bound} J"}]}
+    found = [asp.optimise(study(ball(points), {**bounded, "tolerance": 1e-5}, **names)) for points in (33, 65)]
+    assert converging([one["F"] for one in found], (bound / c) ** 0.6)
+    assert found[1].constraints[0].price == pytest.approx(0.6, rel=5e-3)
+
+
+def test_an_expression_of_an_axis_takes_the_values_of_a_design():
+    """A load in proportion to the modulus of a half-space: the same approach whatever the
+    modulus."""
+    modulus = {"path": "body.youngs_modulus", "name": "E", "low": "1 GPa", "high": "9 GPa"}
+    load = {"path": "control.force", "name": "P", "values": [1e-3, 2e-3], "expression": "P * E * R**2"}
+    table = study(
+        ball(), {"minimise": "approach", "variables": [modulus]}, axes=[load], letters={"R": "surface.radius"}
+    )
+    problem = make_design(study_from_table(table, Path()))
+    one, two = Evaluation(problem, Here())([Site((), (1e9,)), Site((), (4e9,))])
+    np.testing.assert_allclose(one.values["approach"], two.values["approach"], rtol=1e-7)
+    assert one.values["approach"][0, 1] > 1.5 * one.values["approach"][0, 0]
 
 
 # Searches.
@@ -355,6 +393,7 @@ def told(design: dict[str, Any], problem: dict[str, Any] = ROUGH, **tables: Any)
     make_design(study_from_table(study(problem, {"minimise": "max_pressure", **design}, **tables), Path()))
 
 
+LOADS = {"path": "control.mean_pressure", "values": ["100 MPa", "300 MPa"]}
 BAD = {
     "path": ({"variables": [{**THICKNESS, "path": "body.layers.3.thickness"}]}, InputError, "path", "layers.3"),
     "unit": ({"variables": [{**THICKNESS, "low": "20 Pa"}]}, UnitError, "body.layers.0.thickness", "Pa"),
@@ -428,6 +467,25 @@ def test_what_cannot_be_a_design_is_refused_before_it_is_solved(name: str):
     design, kind, subject, shown = BAD[name]
     with refused(kind, subject, shown):
         told(design)
+
+
+DERIVED = {
+    "letter": ({"variables": [{**THICKNESS, "name": "E2"}]}, InputError, "letter E2", "body.layers.0.thickness"),
+    "expression": ({"minimise": "cost"}, InputError, "expression of cost", "prise"),
+    "unit": ({"constraints": [{"quantity": "work", "at_most": "1 nm"}]}, UnitError, "limit of work", "nm"),
+    "axis": ({"variables": [{**THICKNESS, "name": "load"}]}, InputError, "name of a variable", "load"),
+}
+
+
+@pytest.mark.parametrize("name", DERIVED)
+def test_what_cannot_be_derived_is_refused_before_it_is_solved(name: str):
+    design, kind, subject, shown = DERIVED[name]
+    derived = {"work": "approach * E2", "cost": "thickness * prise" if name == "expression" else "thickness"}
+    variables = design.get("variables", [THICKNESS])
+    derived["cost"] = derived["cost"].replace("thickness", str(variables[0].get("name", "thickness")))
+    letters = {"E2": "body.base.youngs_modulus"}
+    with refused(kind, subject, shown):
+        told({"variables": variables, **design}, derived=derived, letters=letters, axes=[{**LOADS, "name": "load"}])
 
 
 def test_a_choice_whose_strength_is_not_known_is_refused():
