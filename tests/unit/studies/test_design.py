@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import math
+import threading
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import numpy as np
 import pytest
 from reference_data import Row, reference
 from refusals import refused
+from study_cases import InProcess
 
 import asperity as asp
 from asperity.core.errors import ConvergenceError, InputError, UnitError
@@ -21,6 +23,7 @@ from asperity.studies.campaign import open_study, run_study
 from asperity.studies.design.evaluation import Evaluation, Here, Scaled
 from asperity.studies.design.problem import Site, make_design
 from asperity.studies.design.search import Aim, Search
+from asperity.studies.design.together import at_once
 from asperity.studies.documents import study_from_table
 from asperity.studies.store import records
 
@@ -261,6 +264,59 @@ def test_numbers_are_sought_for_every_choice():
     assert found.agreeing >= 2
 
 
+EVOLUTION = {"method": "evolution", "population": 10, "generations": 8}
+
+
+def test_an_evolution_finds_what_gradients_find_for_every_choice():
+    variable = {"path": "body.layers.0.material", "choices": ["gold", "DLC", "TiN"]}
+    limits = [{"quantity": "mean_gap", "at_least": "15 nm"}]
+    design = {"minimise": "max_pressure", "variables": [RMS_HEIGHT, variable], "constraints": limits, "starts": 2}
+    problem = {**ROUGH, "body": "TiN:300nm/steel"}
+    every, found = (asp.optimise(study(problem, {**design, **more})) for more in ({}, EVOLUTION))
+    assert found.feasible
+    assert found["material"] == every["material"]
+    assert found.objective.value == pytest.approx(every.objective.value, rel=2e-3)
+
+
+def test_an_evolution_finds_the_optimum_of_hertz(tmp_path: Path):
+    """F = π³ R² p₀³/(6 E*²): the softest body, the largest ball, and the load of both alone."""
+    load = {"path": "control.force", "name": "F", "low": "0.05 N", "high": "5 N"}
+    radius = {"path": "surface.radius", "low": "0.5 mm", "high": "2 mm"}
+    choice = {"path": "body.youngs_modulus", "name": "E", "choices": ["4 GPa", "2 GPa", "1 GPa", "3 GPa"]}
+    limits = [{"quantity": "max_pressure", "at_most": "40 MPa"}]
+    design = {"maximise": "F", "variables": [radius, load, choice], "constraints": limits, "starts": 2}
+    table = study(ball(24), {**design, **EVOLUTION, "tolerance": 1e-4})
+    found = asp.optimise(table, tmp_path / "d")
+    one = ball(24)
+    one["surface"]["radius"] = "2 mm"
+    alone = asp.optimise(study(one, {**design, "variables": [load], "tolerance": 1e-4}))
+    assert (found["E"], found["radius"]) == (1e9, pytest.approx(2e-3))
+    assert found["F"] == pytest.approx(alone["F"], rel=1e-3)
+    assert found.converged
+    again = asp.optimise(table, tmp_path / "d")
+    assert (again.solves, again.history) == (0, found.history)
+
+
+def test_many_choices_evolve_unless_something_else_is_asked_for():
+    choices = [
+        {"path": f"body.layers.{n}.material", "name": f"m{n}", "choices": ["DLC", "TiN", "gold"]} for n in (0, 1)
+    ]
+    layers = {**ROUGH, "body": "DLC:100nm/TiN:100nm/steel"}
+    moduli = {"path": "body.base.youngs_modulus", "choices": [f"{n} GPa" for n in range(100, 200)]}
+    base = {**ROUGH, "body": "E=150GPa,nu=0.2:100nm/E=200GPa,nu=0.3"}
+    for design, problem, evolves in (
+        ({"variables": choices}, layers, False),
+        ({"variables": [THICKNESS, *choices]}, layers, False),
+        ({"variables": [THICKNESS, *choices], "starts": 7}, layers, True),
+        ({"variables": [THICKNESS, *choices], "starts": 7, "method": "slsqp"}, layers, False),
+        ({"variables": [THICKNESS], "starts": 100}, ROUGH, False),
+        ({"variables": [moduli]}, base, False),
+        ({"variables": [THICKNESS, moduli]}, base, True),
+    ):
+        made = make_design(study_from_table(study(problem, {"minimise": "approach", **design}), Path()))
+        assert made.evolves is evolves
+
+
 def test_all_cases_must_hold_and_the_worst_is_named():
     loads = {"path": "control.mean_pressure", "name": "load", "values": ["100 MPa", "300 MPa"]}
     limits = [{"quantity": "mean_gap", "at_least": "20 nm"}]
@@ -363,9 +419,62 @@ def test_a_search_that_is_run_again_repeats_no_solve(tmp_path: Path):
     assert (again.solves, again.reused) == (0, whole.solves)
 
 
-def test_workers_find_the_same(tmp_path: Path):
-    one, two = (asp.optimise(study(ROUGH, {**DESIGN, "starts": 1}), workers=count) for count in (1, 2))
-    assert [each.value for each in two.variables] == [each.value for each in one.variables]
+AT_ONCE = {
+    "starts": DESIGN,
+    "choices and a front": {
+        "minimise": "max_pressure",
+        "variables": [RMS_HEIGHT, {"path": "body.layers.0.youngs_modulus", "choices": ["100 GPa", "300 GPa"]}],
+        "pareto": {"maximise": "mean_gap", "points": 4},
+        "starts": 1,
+    },
+    "evolution": {**DESIGN, "method": "evolution", "population": 6, "generations": 3},
+}
+
+
+@pytest.mark.parametrize("name", AT_ONCE)
+def test_searches_at_once_find_the_same(name: str, monkeypatch: pytest.MonkeyPatch):
+    """All numbers of the answer to the last digit, the designs on the way among them."""
+    one = asp.optimise(study(ROUGH, AT_ONCE[name]))
+    counts = []
+
+    class Counting(InProcess):
+        def run(self, function: str, tasks: Any) -> Any:
+            given = list(tasks)
+            counts.append(len(given))
+            return super().run(function, iter(given))
+
+    monkeypatch.setattr("asperity.studies.design.optimise.DaskCluster", lambda address: Counting())
+    two = asp.optimise(study(ROUGH, AT_ONCE[name]), dask="tcp://anywhere")
+    assert two.record() == one.record()
+    assert max(counts) > 1
+
+
+def test_workers_find_the_same():
+    one, two = (asp.optimise(study(ROUGH, DESIGN), workers=count) for count in (1, 2))
+    assert two.record() == one.record()
+
+
+def test_an_error_ends_all_searches(monkeypatch: pytest.MonkeyPatch):
+    threads, told = threading.active_count(), []
+
+    def stop(solved: int, reused: int) -> None:
+        told.append(solved)
+        if len(told) == 3:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("asperity.studies.design.optimise.DaskCluster", lambda address: InProcess())
+    with pytest.raises(KeyboardInterrupt):
+        asp.optimise(study(ROUGH, DESIGN), dask="tcp://anywhere", progress=stop)
+    assert threading.active_count() == threads
+    problem = make_design(study_from_table(study(ROUGH, DESIGN), Path()))
+    evaluation, site = Evaluation(problem, InProcess()), problem.place((), np.array([0.5, 0.5]))
+
+    def fail(given: Evaluation) -> None:
+        raise ValueError("of this search")
+
+    with pytest.raises(ValueError, match="of this search"):
+        at_once(evaluation, [lambda given: given([site]), fail])
+    assert threading.active_count() == threads
 
 
 def test_the_files_of_a_design(tmp_path: Path, rendered: None):

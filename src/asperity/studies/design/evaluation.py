@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -84,6 +85,7 @@ class Evaluation:
     solved: int = 0
     reused: int = 0
     seen: dict[Site, Computed] = field(default_factory=dict)
+    ask: Callable[[Sequence[Site]], None] | None = field(default=None, init=False)
 
     def __post_init__(self) -> None:
         asked = self.problem.plan.quantities
@@ -100,6 +102,22 @@ class Evaluation:
     def __call__(self, sites: Sequence[Site]) -> list[Computed]:
         """The designs at ``sites``, computed together where they are not known."""
         new = [site for site in dict.fromkeys(sites) if site not in self.seen]
+        if new:
+            (self.ask or self._compute)(new)
+        return [self.seen[site] for site in sites]
+
+    @property
+    def several(self) -> bool:
+        """Whether more than one design can be computed at a time."""
+        return not isinstance(self.executor, Here)
+
+    def asking(self, ask: Callable[[Sequence[Site]], None]) -> Evaluation:
+        """The same, but what is not known is computed by ``ask``."""
+        made = copy(self)
+        made.ask = ask
+        return made
+
+    def _compute(self, new: Sequence[Site]) -> None:
         paths = {site: self._paths(site) for site in new}
         cases = [case for site in new for path in paths[site] for case in path]
         there = sum(case.key in self.known for case in cases)
@@ -110,11 +128,9 @@ class Evaluation:
                 self.store.append(found)
             self.known |= {record["key"]: record for record in found}
             self.solved += len(found)
-        if new:
-            self.reused += there
-            self.report(self.solved, self.reused)
+        self.reused += there
+        self.report(self.solved, self.reused)
         self.seen |= {site: self._gathered(site, paths[site]) for site in new}
-        return [self.seen[site] for site in sites]
 
     def _paths(self, site: Site) -> list[list[StudyCase]]:
         """Cases of the design, those that differ in the load alone together."""

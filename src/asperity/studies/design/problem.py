@@ -26,8 +26,9 @@ from ..expressions import Expression
 from ..places import Edit, Place, edited, locate, problem_table
 from ..plan import Plan, limit_of, make_plan, measures
 
-MOST_CHOICES = 200
-"""Combinations of choices that a design may have; each is searched by itself."""
+MOST_CHOICES, MOST_SEARCHES = 200, 60
+"""Combinations of choices that are all tried, and searches by gradients (combinations times starts)
+beyond which choices and numbers evolve together unless something else is asked for."""
 
 DIGITS = 9
 """Digits of the values of variables: a search that is run again finds the same ones."""
@@ -159,6 +160,20 @@ class DesignProblem:
         found = self.plan.document.design
         assert found is not None
         return found
+
+    @property
+    def evolves(self) -> bool:
+        """Whether choices and numbers are sought together by an evolution: where it is asked for,
+        and where searches for each combination of choices would be too many."""
+        if self.table.method != "auto":
+            return self.table.method == "evolution"
+        count = math.prod(len(each.points) for each in self.choices)
+        return count > 1 and (count * self.table.starts > MOST_SEARCHES if self.numbers else count > MOST_CHOICES)
+
+    @property
+    def population(self) -> int:
+        """Designs of a generation of an evolution."""
+        return self.table.population or min(max(8 * len(self.variables), 16), 64)
 
     @property
     def variables(self) -> tuple[Variable, ...]:
@@ -308,9 +323,12 @@ def _variables(base: Base, table: DesignTable) -> tuple[tuple[Variable, ...], tu
         else:
             axis = make_axis(base, AxisTable(path=item.path, values=item.choices, also=item.also), name)
             choices.append(Variable(name, locate(base.document, item.path), points=tuple(axis.points)))
-    if math.prod(len(each.points) for each in choices) > MOST_CHOICES:
-        count = math.prod(len(each.points) for each in choices)
-        raise InputError(f"choices of a design must have at most {MOST_CHOICES} combinations, but have {count}.")
+    count = math.prod(len(each.points) for each in choices)
+    if count > MOST_CHOICES and table.method not in ("auto", "evolution"):
+        raise InputError(
+            f"choices of a design must have at most {MOST_CHOICES} combinations for the method {table.method}, but "
+            f"have {count}; give the method evolution."
+        )
     return tuple(numbers), tuple(choices)
 
 
@@ -438,12 +456,24 @@ def _require_apart(plan: Plan, variables: tuple[Variable, ...]) -> None:
             seen.append((found, each.name))
 
 
+def _to_check(design: DesignProblem) -> Iterator[tuple[int, ...]]:
+    """Combinations of choices that are built before anything is solved: all, or of many those that
+    differ from the first in one choice."""
+    counts = [len(each.points) for each in design.choices]
+    if math.prod(counts) <= MOST_CHOICES:
+        yield from design.combinations()
+        return
+    first = (0,) * len(counts)
+    for n, count in enumerate(counts):
+        yield from ((*first[:n], at, *first[n + 1 :]) for at in range(min(n, 1), count))
+
+
 def _require_possible(design: DesignProblem, base: Base, asked: list[str]) -> None:
     """Refuse a design that cannot be built, or whose quantities lack data, in one of the choices;
     surfaces are not made."""
     table, plan = problem_table(base.document), design.plan
     ends = [tuple(each.low for each in design.numbers), tuple(each.high for each in design.numbers)]
-    for choice in design.combinations():
+    for choice in _to_check(design):
         for values in dict.fromkeys(ends):
             own = design.edits(Site(choice, values))
             edits = (*own, *plan.edits((0,) * len(plan.axes), plan.scalars.after(own)))
