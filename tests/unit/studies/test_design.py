@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import threading
 from itertools import pairwise
 from pathlib import Path
@@ -485,7 +486,18 @@ def test_the_files_of_a_design(tmp_path: Path, rendered: None):
     record = json.loads((tmp_path / "d" / "design.json").read_text(encoding="utf-8"))
     assert record["variables"][0]["value"] == found["thickness"]
     assert len(record["front"]) == len(found.front) >= 3
-    assert {path.stem for path in (tmp_path / "d" / "plots").iterdir()} == {"front", "history", "margins"}
+    assert {path.stem for path in (tmp_path / "d" / "plots").iterdir()} == {
+        "changes",
+        "front",
+        "history",
+        "margins",
+    }
+    page = (tmp_path / "d" / "report.html").read_text(encoding="utf-8")
+    for text in (found.verdict, *(each.name for each in found.variables), *found.citation_keys, "[design]"):
+        assert text in page
+    (curves,) = re.findall(r'"texts": ?(\[[^]]*\])', page)
+    assert json.loads(curves) == list(found.in_words)
+    assert len(found.in_words) == len(found.front)
     text = repr(found)
     assert all(each.name in text for each in found.variables)
     assert found.verdict in text

@@ -201,6 +201,11 @@ class Evaluation:
             found = derived_slopes(plan.derived, known, along)
             slopes |= {(name, n): np.broadcast_to(slope, shape) for name, slope in found.items()}
 
+    def citation_keys(self, site: Site) -> tuple[str, ...]:
+        """Keys of the sources behind the cases of a design that is computed."""
+        records = (self.known[case.key] for path in self._paths(site) for case in path)
+        return tuple(dict.fromkeys(key for record in records for key in record["citations"]))
+
     def value(self, criterion: Criterion, found: Computed) -> RealArray:
         """Value of ``criterion`` in each of its cases, (n,), or their mean: of samples the mean,
         less or more some standard deviations."""

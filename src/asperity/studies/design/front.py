@@ -73,7 +73,9 @@ def _undominated(search: Search, sites: Sequence[Site]) -> tuple[Site, ...]:
     def beaten(one: tuple[Site, float, float]) -> bool:
         room = [tolerance * abs(value) for value in one[1:]]
         return any(
-            other[1] <= one[1] and other[2] <= one[2] and (other[1] < one[1] - room[0] or other[2] < one[2] - room[1])
+            other[1] <= one[1] + room[0]
+            and other[2] <= one[2] + room[1]
+            and (other[1] < one[1] - room[0] or other[2] < one[2] - room[1])
             for other in kept
         )
 

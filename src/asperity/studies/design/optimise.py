@@ -173,6 +173,7 @@ def _design(search: Search) -> Design:
         failed=len(failed),
         failure=failed[0] if failed else "",
         tolerance=search.tolerance,
+        citation_keys=evaluation.citation_keys(site),
     )
 
 
