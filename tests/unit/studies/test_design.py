@@ -470,11 +470,14 @@ def test_an_error_ends_all_searches(monkeypatch: pytest.MonkeyPatch):
     problem = make_design(study_from_table(study(ROUGH, DESIGN), Path()))
     evaluation, site = Evaluation(problem, InProcess()), problem.place((), np.array([0.5, 0.5]))
 
-    def fail(given: Evaluation) -> None:
-        raise ValueError("of this search")
+    own = ConvergenceError("of this search")
 
-    with pytest.raises(ValueError, match="of this search"):
+    def fail(given: Evaluation) -> None:
+        raise own
+
+    with pytest.raises(ConvergenceError) as caught:
         at_once(evaluation, [lambda given: given([site]), fail])
+    assert caught.value is own
     assert threading.active_count() == threads
 
 
