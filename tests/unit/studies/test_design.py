@@ -7,6 +7,7 @@ import json
 import math
 import re
 import threading
+from contextlib import nullcontext
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ import asperity as asp
 from asperity.core.errors import ConvergenceError, InputError, UnitError
 from asperity.report.design import write_design_files
 from asperity.studies.campaign import open_study, run_study
+from asperity.studies.cluster import DaskCluster
 from asperity.studies.design.evaluation import Evaluation, Here, Scaled
 from asperity.studies.design.problem import Site, make_design
 from asperity.studies.design.search import Aim, Search
@@ -298,6 +300,17 @@ def test_an_evolution_finds_the_optimum_of_hertz(tmp_path: Path):
     assert (again.solves, again.history) == (0, found.history)
 
 
+def test_an_evolution_of_choices_alone_finds_the_best_and_the_front():
+    materials = ["gold", "DLC", "TiN"]
+    choices = [{"path": f"body.layers.{n}.material", "name": f"m{n}", "choices": materials} for n in (0, 1)]
+    problem = {**ROUGH, "body": "DLC:100nm/TiN:100nm/steel"}
+    design = {"minimise": "max_pressure", "variables": choices, "pareto": {"minimise": "approach", "points": 3}}
+    every, found = (asp.optimise(study(problem, {**design, **more})) for more in ({}, EVOLUTION))
+    assert [each.value for each in found.variables] == [each.value for each in every.variables]
+    assert found.solves <= every.solves == 9
+    assert {point.values for point in found.front} <= {point.values for point in every.front}
+
+
 def test_many_choices_evolve_unless_something_else_is_asked_for():
     choices = [
         {"path": f"body.layers.{n}.material", "name": f"m{n}", "choices": ["DLC", "TiN", "gold"]} for n in (0, 1)
@@ -444,7 +457,7 @@ def test_searches_at_once_find_the_same(name: str, monkeypatch: pytest.MonkeyPat
             counts.append(len(given))
             return super().run(function, iter(given))
 
-    monkeypatch.setattr("asperity.studies.design.optimise.DaskCluster", lambda address: Counting())
+    monkeypatch.setattr(DaskCluster, "kept", lambda cluster: nullcontext(Counting()))
     two = asp.optimise(study(ROUGH, AT_ONCE[name]), dask="tcp://anywhere")
     assert two.record() == one.record()
     assert max(counts) > 1
@@ -463,7 +476,7 @@ def test_an_error_ends_all_searches(monkeypatch: pytest.MonkeyPatch):
         if len(told) == 3:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("asperity.studies.design.optimise.DaskCluster", lambda address: InProcess())
+    monkeypatch.setattr(DaskCluster, "kept", lambda cluster: nullcontext(InProcess()))
     with pytest.raises(KeyboardInterrupt):
         asp.optimise(study(ROUGH, DESIGN), dask="tcp://anywhere", progress=stop)
     assert threading.active_count() == threads

@@ -104,7 +104,7 @@ def evaluating(
     with ExitStack() as stack:
         executor: Executor = Here()
         if dask is not None:
-            executor = DaskCluster(dask)
+            executor = stack.enter_context(DaskCluster(dask).kept())
         elif workers != 1:
             executor = stack.enter_context(LocalProcesses(workers).kept())
         store, known = None, dict[str, Record]()
