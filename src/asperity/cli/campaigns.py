@@ -50,6 +50,10 @@ Out = Annotated[
 Workers = Annotated[
     int | None, typer.Option("--workers", help="Worker processes; as many as cores by default.", metavar="N")
 ]
+Dask = Annotated[
+    str | None,
+    typer.Option("--dask", help='Scheduler of a Dask cluster instead, "tcp://host:8786".', metavar="ADDRESS"),
+]
 Retry = Annotated[bool, typer.Option("--retry", help="Try again what has failed.")]
 
 
@@ -57,10 +61,7 @@ def run(
     study: Annotated[Path, typer.Argument(help="Study document (TOML or JSON).", metavar="STUDY")],
     out: Out = None,
     workers: Workers = None,
-    dask: Annotated[
-        str | None,
-        typer.Option("--dask", help='Scheduler of a Dask cluster instead, "tcp://host:8786".', metavar="ADDRESS"),
-    ] = None,
+    dask: Dask = None,
     retry: Retry = False,
     yes: Annotated[bool, typer.Option("--yes", help="Do not ask before work of hours.")] = False,
 ) -> None:

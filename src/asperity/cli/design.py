@@ -16,7 +16,7 @@ from ..report.design import write_design_files
 from ..studies.design.answer import Design
 from ..studies.design.optimise import folder_of, optimise
 from ..studies.local import available_cores
-from .campaigns import Out, Retry, Workers
+from .campaigns import Dask, Out, Retry, Workers
 from .interrupt import INTERRUPTED
 from .main import NOT_CONVERGED, OK
 from .show import console, error_console, print_files, say, table, watching
@@ -26,6 +26,7 @@ def design(
     study: Annotated[Path, typer.Argument(help="Study document with a table [design].", metavar="STUDY")],
     out: Out = None,
     workers: Workers = None,
+    dask: Dask = None,
     retry: Retry = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, all values in SI.")] = False,
 ) -> None:
@@ -40,7 +41,7 @@ def design(
     folder = folder_of(study, out)
     with speaking("command"), resumable(f"asperity design {study}"), counting() as told:
         count = available_cores() if workers is None else workers
-        found = optimise(study, folder, workers=count, retry=retry, progress=told)
+        found = optimise(study, folder, workers=count, dask=dask, retry=retry, progress=told)
     written = write_design_files(found, folder)
     if as_json:
         console().out(json.dumps(found.record(), indent=2, ensure_ascii=False), highlight=False)

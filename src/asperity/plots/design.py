@@ -12,10 +12,17 @@ import numpy as np
 from ..core.arrays import BoolArray, RealArray
 from ..core.quantity import Labelled
 from .campaign import LINE
-from .picture import BLACK, BLUE, GREEN, NO_CONTACT, VERMILLION, legend_above, literal, scale
+from .picture import BLACK, BLUE, GREEN, NO_CONTACT, VERMILLION, legend_above, literal, saying, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+BAR, TEXT, GAP, REST = 0.2, 0.145, 0.12, 0.9
+"""Heights in inches of a bar, of a line of the name above it, of the gap to the next name, and of
+axis and legend."""
+
+WHOLE = 40
+"""Letters of the longest line of the name of a bar."""
 
 WIDEST = 200.0
 """Margins in percent that are drawn at most; the number of a larger one is written."""
@@ -43,30 +50,75 @@ def plot_history(objective: Labelled, feasible: BoolArray, ax: Axes, *, larger: 
 def plot_margins(names: Sequence[str], margins: RealArray, ax: Axes) -> Axes:
     """Draw how far each of the constraints ``names`` is within its limit on ``ax``, as shares of
     it; negative where it is missed."""
-    rows, percents = np.arange(len(names))[::-1], 100.0 * np.asarray(margins)
-    drawn = np.clip(np.nan_to_num(percents), -WIDEST, WIDEST)
-    ax.barh(rows, drawn, height=0.6, color=[GREEN if margin >= 0.0 else VERMILLION for margin in percents])
-    for row, width, margin in zip(rows, drawn, percents, strict=True):
+    percents = 100.0 * np.asarray(margins)
+    colours = [GREEN if margin >= 0.0 else VERMILLION for margin in percents]
+    _bars(
+        names,
+        percents,
+        colours,
+        [f"{margin:.3g} %" if abs(margin) < 1e3 else f"{margin:.0f} %" for margin in percents],
+        ax,
+    )
+    return _labelled(ax, "margin (% of the limit)", "", legend=False)
+
+
+def plot_changes(names: Sequence[str], changes: RealArray, met: BoolArray, ax: Axes) -> Axes:
+    """Draw by what share an objective changes with each of the changes ``names`` on ``ax``, (n,),
+    and whether all limits are ``met`` with it."""
+    percents = 100.0 * np.asarray(changes)
+    texts = [f"{each:+.3g} %" if np.isfinite(each) else "not known" for each in percents]
+    _bars(names, percents, [GREEN if good else VERMILLION for good in met], texts, ax)
+    for good, colour, label in ((met.any(), GREEN, "limits met"), ((~met).any(), VERMILLION, "a limit missed")):
+        if good:
+            ax.plot([], [], "s", color=colour, markersize=7.0, label=label)
+    return _labelled(ax, "change of the objective (%)", "", legend=True)
+
+
+def bars_height(names: Sequence[str]) -> float:
+    """Height in inches of a figure with a bar for each of the ``names``, which stand above them."""
+    return REST + sum(BAR + GAP + TEXT * len(wrap(name, WHOLE)) for name in names)
+
+
+def _bars(names: Sequence[str], values: RealArray, colours: Sequence[str], texts: Sequence[str], ax: Axes) -> None:
+    """Draw ``values`` as bars from the top of ``ax``, each under its name and with its text at the
+    end."""
+    drawn, place = np.clip(np.nan_to_num(values), -WIDEST, WIDEST), 0.0
+    for name, width, colour, text in zip(names, drawn, colours, texts, strict=True):
+        lines = wrap(name, WHOLE)
+        place -= GAP + TEXT * len(lines)
+        ax.text(
+            0.01,
+            place + 0.02,
+            "\n".join(map(literal, lines)),
+            transform=ax.get_yaxis_transform(),
+            va="bottom",
+            linespacing=1.0,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
+        )
+        place -= BAR
+        ax.barh(place + 0.5 * BAR, width, height=BAR, color=colour)
         ax.annotate(
-            f"{margin:.3g} %",
-            (width, row),
+            text,
+            (width, place + 0.5 * BAR),
             xytext=(4 if width >= 0.0 else -4, 0),
             textcoords="offset points",
             ha="left" if width >= 0.0 else "right",
             va="center",
         )
     ax.axvline(0.0, color=BLACK, linewidth=0.8)
-    ax.margins(x=0.25)
-    ax.set_yticks(rows, ["\n".join(map(literal, wrap(name, LINE))) for name in names])
-    return _labelled(ax, "margin (% of the limit)", "", legend=False)
+    ax.margins(x=0.3)
+    ax.set_yticks([])
+    ax.set_ylim(place - GAP, 0.0)
 
 
-def plot_front(first: Labelled, second: Labelled, chosen: int | None, ax: Axes) -> Axes:
+def plot_front(first: Labelled, second: Labelled, chosen: int | None, ax: Axes, *, designs: Sequence[str] = ()) -> Axes:
     """Draw the ``first`` of two objectives against the ``second`` on ``ax``, (n,) each; the point
-    ``chosen`` is the recommended one."""
+    ``chosen`` is the recommended one. ``designs`` in words are what a page reads out."""
     along, up = scale(second.values, second.quantity.unit), scale(first.values, first.quantity.unit)
     x, y = along(second.values), up(first.values)
-    ax.plot(x, y, "o-", color=BLUE, markersize=4.0)
+    (line,) = ax.plot(x, y, "o-", color=BLUE, markersize=4.0)
+    if designs:
+        saying(line, designs)
     if chosen is not None:
         ax.plot(x[chosen], y[chosen], "D", color=VERMILLION, label="best of the first objective")
     for values, set_scale in ((x, ax.set_xscale), (y, ax.set_yscale)):

@@ -317,13 +317,21 @@ class AxesCurves:
 
     ``box`` are left, top, right and bottom of the axes as shares of the picture; of ``x`` and ``y``
     label, limits and whether they are logarithmic; ``curves`` are names and points, in the units of
-    the axes.
+    the axes. ``texts`` are what the points of each curve say instead of their values, none for
+    most; ``cells``: the points are cells that fill the axes.
     """
 
     box: tuple[float, float, float, float]
     x: tuple[str, tuple[float, float], bool]
     y: tuple[str, tuple[float, float], bool]
     curves: tuple[tuple[str, RealArray, RealArray], ...]
+    texts: tuple[tuple[str, ...], ...] = ()
+    cells: bool = False
+
+
+def saying(line: Any, texts: Iterable[str]) -> None:
+    """Let the points of a drawn ``line`` say ``texts``, one each, where a page reads them out."""
+    line.set_gid("\n".join(" ".join(text.split()) for text in texts))
 
 
 # From drawing functions to PNG: one figure, one set of axes, no window.
@@ -473,16 +481,18 @@ def _pixels(
         return pixels
     every: Any = figure.axes
     for ax in every:
-        found = []
+        found, texts = [], list[tuple[str, ...]]()
         for line in ax.get_lines():
             if line.get_transform() == ax.transData and len(line.get_xdata()) > 1:  # others mark a value
                 label = str(line.get_label())
                 x, y = (np.asarray(values, dtype=float) for values in line.get_data())
                 found.append(("" if label.startswith("_") else label, x, y))
+                texts.append(tuple(str(line.get_gid()).split("\n")) if line.get_gid() else ())
         for patch in ax.patches:
             if isinstance(patch, StepPatch):
                 bars: Any = patch.get_data()
                 found.append(("", 0.5 * (bars.edges[1:] + bars.edges[:-1]), np.asarray(bars.values, dtype=float)))
+                texts.append(())
         if not found:
             continue
         place = ax.get_window_extent()
@@ -490,7 +500,9 @@ def _pixels(
         top, bottom = (1.0 - (float(edge) / figure.dpi - content.y0) / content.height for edge in (place.y1, place.y0))
         across = (ax.get_xlabel(), ax.get_xlim(), ax.get_xscale() == "log")
         up = (ax.get_ylabel(), ax.get_ylim(), ax.get_yscale() == "log")
-        curves.append(AxesCurves((left, top, right, bottom), across, up, tuple(found)))
+        said = tuple(texts) if any(texts) else ()
+        cells = bool(said and ax.images)
+        curves.append(AxesCurves((left, top, right, bottom), across, up, tuple(found), said, cells))
     return pixels
 
 

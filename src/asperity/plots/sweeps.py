@@ -11,8 +11,9 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.quantity import Labelled, Limit
+from ..core.units import show
 from .campaign import COLOURS, MOST_TICKS, Curve, plot_curves, with_unit
-from .picture import BLACK, NO_CONTACT, VERMILLION, legend_above, literal, scale, wide_range
+from .picture import BLACK, NO_CONTACT, VERMILLION, legend_above, literal, saying, scale, wide_range
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -118,6 +119,7 @@ def plot_planes(x: Labelled, y: Labelled, z: Labelled, titles: Sequence[str], li
         image = here.imshow(cells, norm=norm, cmap="viridis", origin="lower", aspect="auto")
         if limit is not None and cells.count() and cells.min() < float(up(limit.value)) < cells.max():
             here.contour(cells, levels=[float(up(limit.value))], colors=[VERMILLION], linewidths=1.6)
+        _say_cells(x, y, Labelled(z.quantity, z.values[number]), limit, here, title)
         here.set_title(literal(title), fontsize=8.5)
         here.set_xlabel(with_unit(x.quantity.label, along))
         here.tick_params(labelleft=number == 0)
@@ -131,6 +133,33 @@ def plot_planes(x: Labelled, y: Labelled, z: Labelled, titles: Sequence[str], li
         drawn[0].plot([], [], color=VERMILLION, linewidth=1.6, label=text)
         legend_above(drawn[0], height=1.12 if titles[0] else 1.0)
     return drawn[0]
+
+
+def _say_cells(x: Labelled, y: Labelled, z: Labelled, limit: Limit | None, ax: Axes, title: str) -> None:
+    """Let every cell of a map of ``z`` (nx, ny) on ``ax`` say where it lies, its value, and whether
+    the ``limit`` holds there; a line that is not seen for each row, the topmost first."""
+    across, upward = np.argsort(x.values), np.argsort(y.values)
+    for row in range(upward.size)[::-1]:
+        texts = []
+        for column in across:
+            value = float(z.values[column, upward[row]])
+            where = (
+                *([title] if title else []),
+                _with_value(x, x.values[column]),
+                _with_value(y, y.values[upward[row]]),
+            )
+            said = _with_value(z, value) if np.isfinite(value) else f"{z.quantity.label} not known"
+            if limit is not None and np.isfinite(value):
+                good = value >= limit.value if limit.least else value <= limit.value
+                end = f"at {'least' if limit.least else 'most'} {show(limit.value, z.quantity.unit)}"
+                said = f"{said}, limit ({end}) {'met' if good else 'missed'}"
+            texts.append(f"{', '.join(where)}: {said}")
+        (line,) = ax.plot(np.arange(across.size), np.full(across.size, row), linestyle="", scalex=False, scaley=False)
+        saying(line, texts)
+
+
+def _with_value(what: Labelled, value: float) -> str:
+    return f"{what.quantity.label} {show(float(value), what.quantity.unit)}"
 
 
 def _named(values: RealArray, most: int) -> tuple[RealArray, list[str]]:

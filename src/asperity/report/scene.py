@@ -574,7 +574,11 @@ def curves_of(curves: Iterable[AxesCurves]) -> list[dict[str, Any]]:
                 key: {"label": label, "limits": [float(end) for end in ends], "log": log}
                 for key, (label, ends, log) in (("x", axes.x), ("y", axes.y))
             },
-            "curves": [{"name": name, "x": floats(x), "y": floats(y)} for name, x, y in axes.curves],
+            "curves": [
+                {"name": name, "x": floats(x), "y": floats(y)} | ({"texts": list(texts)} if texts else {})
+                for (name, x, y), texts in zip(axes.curves, axes.texts or ((),) * len(axes.curves), strict=True)
+            ],
         }
+        | ({"cells": True} if axes.cells else {})
         for axes in curves
     ]

@@ -108,7 +108,7 @@ def _planes(data: xarray.Dataset, array: xarray.DataArray, along: str, limit: Li
     return curve_figure(
         f"{array.name}_map",
         title,
-        f"{title}, a cell a case{more}.",
+        f"{title}, a cell a case{more}." + ("" if limit is None else " The line: where the limit is reached."),
         lambda ax: plot_planes(x, y, stack, titles, limit, ax),
         size,
         wide=len(parts) > 2,

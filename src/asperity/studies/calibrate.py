@@ -23,6 +23,7 @@ from .design.evaluation import Evaluation
 from .design.optimise import Progress, evaluating, loaded_study
 from .design.problem import Criterion, DesignProblem, Site, make_design
 from .design.search import Search
+from .design.searches import starts
 from .documents import LoadedStudy
 from .plan import measures
 
@@ -197,8 +198,7 @@ class _Fit:
 
     def answer(self) -> Calibration:
         """Parameters with their deviations, correlations and intervals."""
-        starts = self.search.starts()
-        fits = sorted((self.fitted(first) for first in starts), key=lambda fit: float(fit.cost))
+        fits = sorted((self.fitted(first) for first in starts(self.search)), key=lambda fit: float(fit.cost))
         best, numbers = fits[0], self.problem.numbers
         site = self.problem.place((), best.x)
         (found,) = self.evaluation([site])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
@@ -26,6 +27,12 @@ class DaskCluster:
 
     def run(self, function: str, tasks: Iterator[Task]) -> Iterator[tuple[Task, Any | Lost]]:
         """Every task with its answer, as they are done; two tasks for each thread are under way."""
+        with self.kept() as workers:
+            yield from workers.run(function, tasks)
+
+    @contextmanager
+    def kept(self) -> Iterator[KeptCluster]:
+        """Connection that stays from one run to the next, and ends with the context."""
         try:
             distributed: Any = importlib.import_module("distributed")
         except ImportError:
@@ -40,24 +47,36 @@ class DaskCluster:
                 f"Dask scheduler must answer at {self.address!r}, but does not ({error}); check address and firewall."
             ) from None
         with client:
-            under_way: dict[Any, Task] = {}
+            yield KeptCluster(distributed, client)
 
-            def submitted() -> Iterator[Any]:
-                for task in tasks:
-                    future = client.submit(call, function, task, pure=False)
-                    under_way[future] = task
-                    yield future
 
-            stream = submitted()
-            ahead = 2 * max(1, sum(client.nthreads().values()))
-            completed = distributed.as_completed(islice(stream, ahead), loop=client.loop)
-            try:
-                for future in completed:
-                    try:
-                        answer = future.result()
-                    except distributed.KilledWorker as error:
-                        answer = Lost(" ".join(str(error).split()))
-                    yield under_way.pop(future), answer
-                    completed.update(islice(stream, 1))
-            finally:
-                client.cancel(list(under_way))
+@dataclass(frozen=True)
+class KeptCluster:
+    """Workers of the scheduler of a ``client`` of the package ``distributed``."""
+
+    distributed: Any
+    client: Any
+
+    def run(self, function: str, tasks: Iterator[Task]) -> Iterator[tuple[Task, Any | Lost]]:
+        """Every task with its answer, as they are done; two tasks for each thread are under way."""
+        under_way: dict[Any, Task] = {}
+
+        def submitted() -> Iterator[Any]:
+            for task in tasks:
+                future = self.client.submit(call, function, task, pure=False)
+                under_way[future] = task
+                yield future
+
+        stream = submitted()
+        ahead = 2 * max(1, sum(self.client.nthreads().values()))
+        completed = self.distributed.as_completed(islice(stream, ahead), loop=self.client.loop)
+        try:
+            for future in completed:
+                try:
+                    answer = future.result()
+                except self.distributed.KilledWorker as error:
+                    answer = Lost(" ".join(str(error).split()))
+                yield under_way.pop(future), answer
+                completed.update(islice(stream, 1))
+        finally:
+            self.client.cancel(list(under_way))

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import keyword
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from operator import getitem
 from typing import Any
@@ -38,17 +38,27 @@ class Derived:
 
 @dataclass(frozen=True)
 class Scalars:
-    """Scalars of the problem over all cases on ``axes``, by their ``letters`` in expressions."""
+    """Scalars of the problem over all cases on ``axes``, by their ``letters`` in expressions; of
+    the problem after ``edits`` where there are some."""
 
     base: Base
     axes: tuple[Axis, ...]
     letters: Mapping[str, Place]
+    edits: tuple[Edit, ...] = ()
     _found: dict[tuple[Any, ...], RealArray] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Number of points of each axis."""
         return tuple(len(axis) for axis in self.axes)
+
+    def after(self, edits: Sequence[Edit]) -> Scalars:
+        """The same of the base problem after ``edits``."""
+        return replace(self, edits=tuple(edits))
+
+    @cached_property
+    def _table(self) -> dict[str, Any]:
+        return edited(problem_table(self.base.document), self.edits)
 
     @cached_property
     def units(self) -> dict[str, str]:
@@ -117,7 +127,7 @@ class Scalars:
             for end in (values.min(), values.max()):
                 value = place.written(float(end))
                 edit = Edit(place.keys, value, place.content(value, self.base.folder))
-                checked(edited(problem_table(self.base.document), [edit]), f"problem with {place.path} = {value!r}")
+                checked(edited(self._table, [edit]), f"problem with {place.path} = {value!r}")
 
     def _at(self, place: Place) -> RealArray:
         for axis in self.axes:
@@ -132,7 +142,7 @@ class Scalars:
             values = _set_on(axis, place)
             if values is not None:
                 return self._spread(values, number)
-        table: Any = problem_table(self.base.document)
+        table: Any = self._table
         try:
             value = coordinate(place, reduce(getitem, place.keys, table))
         except (KeyError, IndexError):
@@ -288,4 +298,17 @@ def derived_values(
         }
         values = np.asarray(item.expression.value(known), dtype=float)
         found[item.quantity.name] = np.broadcast_to(values, scalars.shape)
+    return found
+
+
+def derived_slopes(
+    derived: Sequence[Derived], values: Mapping[str, RealArray], slopes: Mapping[str, RealArray]
+) -> dict[str, RealArray]:
+    """Derivatives of those ``derived`` numbers all of whose names have ``slopes`` along one
+    direction, at the ``values`` of all names."""
+    found: dict[str, RealArray] = {}
+    for item in derived:
+        known = {**slopes, **found}
+        if all(name in known for name in item.expression.names):
+            found[item.quantity.name] = np.asarray(item.expression.slope(values, known), dtype=float)
     return found

@@ -30,6 +30,16 @@ _FUNCTIONS: Mapping[str, Callable[[Any], Any]] = MappingProxyType(
     {"sqrt": np.sqrt, "exp": np.exp, "log": np.log, "log10": np.log10, "abs": np.abs}
 )
 
+_SLOPES: Mapping[str, Callable[[Any], Any]] = MappingProxyType(
+    {
+        "sqrt": lambda x: 0.5 / np.sqrt(x),
+        "exp": np.exp,
+        "log": lambda x: 1.0 / x,
+        "log10": lambda x: 1.0 / (x * math.log(10.0)),
+        "abs": np.sign,
+    }
+)
+
 _CONSTANTS = MappingProxyType({"pi": math.pi})
 
 _LONGEST = 500
@@ -93,6 +103,36 @@ class Expression:
         """Number or array (SI) of it, where ``values`` holds those of its names."""
         with np.errstate(all="ignore"):
             return self._value(self._tree, values)
+
+    def slope(self, values: Mapping[str, Any], slopes: Mapping[str, Any]) -> Any:
+        """Derivative (SI) of it along a direction in which its names have these ``slopes``, at
+        their ``values``."""
+        with np.errstate(all="ignore"):
+            return self._slope(self._tree, values, slopes)
+
+    def _slope(self, node: ast.expr, values: Mapping[str, Any], slopes: Mapping[str, Any]) -> Any:
+        if isinstance(node, ast.Name):
+            return 0.0 if node.id in _CONSTANTS else slopes[node.id]
+        if isinstance(node, ast.UnaryOp):
+            found = self._slope(node.operand, values, slopes)
+            return -found if isinstance(node.op, ast.USub) else found
+        if isinstance(node, ast.Call):
+            assert isinstance(node.func, ast.Name)
+            within = np.asarray(self._value(node.args[0], values), dtype=float)
+            return _SLOPES[node.func.id](within) * self._slope(node.args[0], values, slopes)
+        if not isinstance(node, ast.BinOp):
+            return 0.0
+        a, b = (np.asarray(self._value(side, values), dtype=float) for side in (node.left, node.right))
+        by_a, by_b = (np.asarray(self._slope(side, values, slopes)) for side in (node.left, node.right))
+        if isinstance(node.op, ast.Add | ast.Sub):
+            return _OPERATIONS[type(node.op)](by_a, by_b)
+        if isinstance(node.op, ast.Mult):
+            return by_a * b + a * by_b
+        if isinstance(node.op, ast.Div):
+            return (by_a - a / b * by_b) / b
+        # of a power: what stands in an exponent that does not change needs no logarithm of its base
+        of_base = np.where(by_a == 0.0, 0.0, b * a ** (b - 1.0) * by_a)
+        return of_base + np.where(by_b == 0.0, 0.0, a**b * np.log(a) * by_b)
 
     def _require(self, node: ast.expr) -> None:
         if isinstance(node, ast.BinOp) and type(node.op) in _OPERATIONS:

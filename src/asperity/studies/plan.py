@@ -90,6 +90,11 @@ class Plan:
         """Names of the results of a case: quantities asked for, and what is derived from them."""
         return (*self.document.quantities, *(item.quantity.name for item in self.derived if item.measured))
 
+    @property
+    def known(self) -> dict[str, Quantity]:
+        """Every number of a case that can be asked about: quantities, and what is derived."""
+        return measures() | {item.quantity.name: item.quantity for item in self.derived}
+
     @cached_property
     def table(self) -> dict[str, Any]:
         """The base problem as nested dictionaries."""
@@ -137,10 +142,11 @@ class Plan:
             path.sort(key=_load)
             yield tuple(path)
 
-    def edits(self, index: Sequence[int]) -> tuple[Edit, ...]:
-        """Changes of the base problem that make the case at ``index``."""
+    def edits(self, index: Sequence[int], scalars: Scalars | None = None) -> tuple[Edit, ...]:
+        """Changes of the base problem that make the case at ``index``; expressions take other
+        ``scalars`` than those of the plan where these are given."""
         points = (item.points[at] for item, at in zip(self.axes, index, strict=True))
-        return self.scalars.ruled(index, tuple(edit for point in points for edit in point.edits))
+        return (scalars or self.scalars).ruled(index, tuple(edit for point in points for edit in point.edits))
 
     def key(self, edits: Sequence[Edit], beside: str = "") -> str:
         """Digest of the content of a case: its problem, the quantities, what is computed ``beside``
@@ -162,9 +168,9 @@ def _load(case: StudyCase) -> list[Any]:
     return [(edit.keys[-1], edit.content) for edit in case.edits if edit.keys[0] == "control"]
 
 
-def make_plan(study: LoadedStudy) -> Plan:
+def make_plan(study: LoadedStudy, edits: Sequence[Edit] = ()) -> Plan:
     """Plan of ``study``; all values are checked, one at a time with the others as in the base
-    problem.
+    problem. Expressions take the scalars of the base problem after ``edits``.
 
     Raises
     ------
@@ -205,7 +211,7 @@ def make_plan(study: LoadedStudy) -> Plan:
             seen[keys] = item.name
     stop = None if document.monte_carlo is None else document.monte_carlo.stop
     asked = (*document.quantities, *(() if stop is None else (stop.quantity,)))
-    scalars = Scalars(base, tuple(axes), located(base, document.letters))
+    scalars = Scalars(base, tuple(axes), located(base, document.letters), tuple(edits))
     scalars.require_rules()
     derived = derived_numbers(document.derived, scalars, measures()) if document.derived else ()
     limited = tuple(_limit(table, derived) for table in document.limits)

@@ -5,6 +5,9 @@ from __future__ import annotations
 
 import json
 import math
+import re
+import threading
+from contextlib import nullcontext
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -13,14 +16,17 @@ import numpy as np
 import pytest
 from reference_data import Row, reference
 from refusals import refused
+from study_cases import InProcess
 
 import asperity as asp
 from asperity.core.errors import ConvergenceError, InputError, UnitError
 from asperity.report.design import write_design_files
 from asperity.studies.campaign import open_study, run_study
+from asperity.studies.cluster import DaskCluster
 from asperity.studies.design.evaluation import Evaluation, Here, Scaled
 from asperity.studies.design.problem import Site, make_design
 from asperity.studies.design.search import Aim, Search
+from asperity.studies.design.together import at_once
 from asperity.studies.documents import study_from_table
 from asperity.studies.store import records
 
@@ -169,11 +175,14 @@ def gradient(table: dict[str, Any], *, known: bool) -> tuple[np.ndarray, np.ndar
 def test_derivatives_of_the_contact_agree_with_differences():
     """Also of samples with their deviation; central differences with a step of 0.5 % have an error
     of its square and that of points which change their state."""
-    load = {"path": "control.mean_pressure", "low": "50 MPa", "high": "400 MPa"}
+    load = {"path": "control.mean_pressure", "name": "p", "low": "50 MPa", "high": "400 MPa"}
     limits = [{"quantity": name, "at_least": "1 nm"} for name in ("mean_gap", "approach")]
+    limits.append({"quantity": "steepness", "at_least": 1e-3})
     design = {"minimise": "max_pressure", "variables": [THICKNESS, RMS_HEIGHT, MODULUS, load], "constraints": limits}
+    derived = {"closed": "log(p / E2) * mean_gap / thickness", "steepness": "closed**2 * sqrt(rms / approach)"}
     samples = {"seed": 1, "samples": 3, "random": [{"path": "surface.seed", "distribution": "seed"}]}
-    table = study(ROUGH, {**design, "step": 5e-3, "robust": 1.5}, monte_carlo=samples)
+    names = {"letters": {"E2": "body.base.youngs_modulus"}, "derived": derived}
+    table = study(ROUGH, {**design, "step": 5e-3, "robust": 1.5}, monte_carlo=samples, **names)
     for one, two in zip(gradient(table, known=True), gradient(table, known=False), strict=True):
         np.testing.assert_allclose(one, two, atol=3e-3 * np.abs(two).max())
 
@@ -199,6 +208,41 @@ def test_scaled_numbers_are_smooth_where_logarithms_end():
     np.testing.assert_allclose(slope[:3], numeric[:3], rtol=1e-4)
 
 
+# Derived numbers.
+
+
+def test_a_derived_number_is_best_where_its_formula_says():
+    """With δ = c F^(2/3) of Hertz, δ/R + b E R²/F is least at F^(5/3) = 3 b E R³/(2 c), and F δ
+    reaches W at F = (W/c)^(3/5)."""
+    c, best, bound = (9.0 / (16.0 * RADIUS * E_STAR**2)) ** (1.0 / 3.0), 2.0, 4e-6
+    b = best ** (5.0 / 3.0) * 2.0 * c / (3.0 * 1e9 * RADIUS**3)
+    load = {"path": "control.force", "name": "F", "low": "0.2 N", "high": "10 N", "start": "1 N"}
+    derived = {"share": "approach / R", "cost": {"expression": f"share + {b} * E * R**2 / F", "label": "all"}}
+    names = {"letters": {"R": "surface.radius", "E": "body.youngs_modulus"}, "derived": derived | {"W": "F * approach"}}
+    design = {"minimise": "cost", "variables": [load], "tolerance": 1e-6, "starts": 1}
+    found = [asp.optimise(study(ball(points), design, **names)) for points in (33, 65)]
+    assert converging([one["F"] for one in found], best)
+    assert (found[1].objective.label, found[1].objective.unit) == ("all", "1")
+    bounded = {"maximise": "F", "variables": [load], "constraints": [{"quantity": "W", "at_most": f"{bound} J"}]}
+    found = [asp.optimise(study(ball(points), {**bounded, "tolerance": 1e-5}, **names)) for points in (33, 65)]
+    assert converging([one["F"] for one in found], (bound / c) ** 0.6)
+    assert found[1].constraints[0].price == pytest.approx(0.6, rel=5e-3)
+
+
+def test_an_expression_of_an_axis_takes_the_values_of_a_design():
+    """A load in proportion to the modulus of a half-space: the same approach whatever the
+    modulus."""
+    modulus = {"path": "body.youngs_modulus", "name": "E", "low": "1 GPa", "high": "9 GPa"}
+    load = {"path": "control.force", "name": "P", "values": [1e-3, 2e-3], "expression": "P * E * R**2"}
+    table = study(
+        ball(), {"minimise": "approach", "variables": [modulus]}, axes=[load], letters={"R": "surface.radius"}
+    )
+    problem = make_design(study_from_table(table, Path()))
+    one, two = Evaluation(problem, Here())([Site((), (1e9,)), Site((), (4e9,))])
+    np.testing.assert_allclose(one.values["approach"], two.values["approach"], rtol=1e-7)
+    assert one.values["approach"][0, 1] > 1.5 * one.values["approach"][0, 0]
+
+
 # Searches.
 
 
@@ -221,6 +265,70 @@ def test_numbers_are_sought_for_every_choice():
     assert found["material"] == "TiN"
     assert len(found.trials) == 4
     assert found.agreeing >= 2
+
+
+EVOLUTION = {"method": "evolution", "population": 10, "generations": 8}
+
+
+def test_an_evolution_finds_what_gradients_find_for_every_choice():
+    variable = {"path": "body.layers.0.material", "choices": ["gold", "DLC", "TiN"]}
+    limits = [{"quantity": "mean_gap", "at_least": "15 nm"}]
+    design = {"minimise": "max_pressure", "variables": [RMS_HEIGHT, variable], "constraints": limits, "starts": 2}
+    problem = {**ROUGH, "body": "TiN:300nm/steel"}
+    every, found = (asp.optimise(study(problem, {**design, **more})) for more in ({}, EVOLUTION))
+    assert found.feasible
+    assert found["material"] == every["material"]
+    assert found.objective.value == pytest.approx(every.objective.value, rel=2e-3)
+
+
+def test_an_evolution_finds_the_optimum_of_hertz(tmp_path: Path):
+    """F = π³ R² p₀³/(6 E*²): the softest body, the largest ball, and the load of both alone."""
+    load = {"path": "control.force", "name": "F", "low": "0.05 N", "high": "5 N"}
+    radius = {"path": "surface.radius", "low": "0.5 mm", "high": "2 mm"}
+    choice = {"path": "body.youngs_modulus", "name": "E", "choices": ["4 GPa", "2 GPa", "1 GPa", "3 GPa"]}
+    limits = [{"quantity": "max_pressure", "at_most": "40 MPa"}]
+    design = {"maximise": "F", "variables": [radius, load, choice], "constraints": limits, "starts": 2}
+    table = study(ball(24), {**design, **EVOLUTION, "tolerance": 1e-4})
+    found = asp.optimise(table, tmp_path / "d")
+    one = ball(24)
+    one["surface"]["radius"] = "2 mm"
+    alone = asp.optimise(study(one, {**design, "variables": [load], "tolerance": 1e-4}))
+    assert (found["E"], found["radius"]) == (1e9, pytest.approx(2e-3))
+    assert found["F"] == pytest.approx(alone["F"], rel=1e-3)
+    assert found.converged
+    again = asp.optimise(table, tmp_path / "d")
+    assert (again.solves, again.history) == (0, found.history)
+
+
+def test_an_evolution_of_choices_alone_finds_the_best_and_the_front():
+    materials = ["gold", "DLC", "TiN"]
+    choices = [{"path": f"body.layers.{n}.material", "name": f"m{n}", "choices": materials} for n in (0, 1)]
+    problem = {**ROUGH, "body": "DLC:100nm/TiN:100nm/steel"}
+    design = {"minimise": "max_pressure", "variables": choices, "pareto": {"minimise": "approach", "points": 3}}
+    every, found = (asp.optimise(study(problem, {**design, **more})) for more in ({}, EVOLUTION))
+    assert [each.value for each in found.variables] == [each.value for each in every.variables]
+    assert found.solves <= every.solves == 9
+    assert {point.values for point in found.front} <= {point.values for point in every.front}
+
+
+def test_many_choices_evolve_unless_something_else_is_asked_for():
+    choices = [
+        {"path": f"body.layers.{n}.material", "name": f"m{n}", "choices": ["DLC", "TiN", "gold"]} for n in (0, 1)
+    ]
+    layers = {**ROUGH, "body": "DLC:100nm/TiN:100nm/steel"}
+    moduli = {"path": "body.base.youngs_modulus", "choices": [f"{n} GPa" for n in range(100, 200)]}
+    base = {**ROUGH, "body": "E=150GPa,nu=0.2:100nm/E=200GPa,nu=0.3"}
+    for design, problem, evolves in (
+        ({"variables": choices}, layers, False),
+        ({"variables": [THICKNESS, *choices]}, layers, False),
+        ({"variables": [THICKNESS, *choices], "starts": 7}, layers, True),
+        ({"variables": [THICKNESS, *choices], "starts": 7, "method": "slsqp"}, layers, False),
+        ({"variables": [THICKNESS], "starts": 100}, ROUGH, False),
+        ({"variables": [moduli]}, base, False),
+        ({"variables": [THICKNESS, moduli]}, base, True),
+    ):
+        made = make_design(study_from_table(study(problem, {"minimise": "approach", **design}), Path()))
+        assert made.evolves is evolves
 
 
 def test_all_cases_must_hold_and_the_worst_is_named():
@@ -325,9 +433,65 @@ def test_a_search_that_is_run_again_repeats_no_solve(tmp_path: Path):
     assert (again.solves, again.reused) == (0, whole.solves)
 
 
-def test_workers_find_the_same(tmp_path: Path):
-    one, two = (asp.optimise(study(ROUGH, {**DESIGN, "starts": 1}), workers=count) for count in (1, 2))
-    assert [each.value for each in two.variables] == [each.value for each in one.variables]
+AT_ONCE = {
+    "starts": DESIGN,
+    "choices and a front": {
+        "minimise": "max_pressure",
+        "variables": [RMS_HEIGHT, {"path": "body.layers.0.youngs_modulus", "choices": ["100 GPa", "300 GPa"]}],
+        "pareto": {"maximise": "mean_gap", "points": 4},
+        "starts": 1,
+    },
+    "evolution": {**DESIGN, "method": "evolution", "population": 6, "generations": 3},
+}
+
+
+@pytest.mark.parametrize("name", AT_ONCE)
+def test_searches_at_once_find_the_same(name: str, monkeypatch: pytest.MonkeyPatch):
+    """All numbers of the answer to the last digit, the designs on the way among them."""
+    one = asp.optimise(study(ROUGH, AT_ONCE[name]))
+    counts = []
+
+    class Counting(InProcess):
+        def run(self, function: str, tasks: Any) -> Any:
+            given = list(tasks)
+            counts.append(len(given))
+            return super().run(function, iter(given))
+
+    monkeypatch.setattr(DaskCluster, "kept", lambda cluster: nullcontext(Counting()))
+    two = asp.optimise(study(ROUGH, AT_ONCE[name]), dask="tcp://anywhere")
+    assert two.record() == one.record()
+    assert max(counts) > 1
+
+
+def test_workers_find_the_same():
+    one, two = (asp.optimise(study(ROUGH, DESIGN), workers=count) for count in (1, 2))
+    assert two.record() == one.record()
+
+
+def test_an_error_ends_all_searches(monkeypatch: pytest.MonkeyPatch):
+    threads, told = threading.active_count(), []
+
+    def stop(solved: int, reused: int) -> None:
+        told.append(solved)
+        if len(told) == 3:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(DaskCluster, "kept", lambda cluster: nullcontext(InProcess()))
+    with pytest.raises(KeyboardInterrupt):
+        asp.optimise(study(ROUGH, DESIGN), dask="tcp://anywhere", progress=stop)
+    assert threading.active_count() == threads
+    problem = make_design(study_from_table(study(ROUGH, DESIGN), Path()))
+    evaluation, site = Evaluation(problem, InProcess()), problem.place((), np.array([0.5, 0.5]))
+
+    own = ConvergenceError("of this search")
+
+    def fail(given: Evaluation) -> None:
+        raise own
+
+    with pytest.raises(ConvergenceError) as caught:
+        at_once(evaluation, [lambda given: given([site]), fail])
+    assert caught.value is own
+    assert threading.active_count() == threads
 
 
 def test_the_files_of_a_design(tmp_path: Path, rendered: None):
@@ -338,7 +502,18 @@ def test_the_files_of_a_design(tmp_path: Path, rendered: None):
     record = json.loads((tmp_path / "d" / "design.json").read_text(encoding="utf-8"))
     assert record["variables"][0]["value"] == found["thickness"]
     assert len(record["front"]) == len(found.front) >= 3
-    assert {path.stem for path in (tmp_path / "d" / "plots").iterdir()} == {"front", "history", "margins"}
+    assert {path.stem for path in (tmp_path / "d" / "plots").iterdir()} == {
+        "changes",
+        "front",
+        "history",
+        "margins",
+    }
+    page = (tmp_path / "d" / "report.html").read_text(encoding="utf-8")
+    for text in (found.verdict, *(each.name for each in found.variables), *found.citation_keys, "[design]"):
+        assert text in page
+    (curves,) = re.findall(r'"texts": ?(\[[^]]*\])', page)
+    assert json.loads(curves) == list(found.in_words)
+    assert len(found.in_words) == len(found.front)
     text = repr(found)
     assert all(each.name in text for each in found.variables)
     assert found.verdict in text
@@ -355,6 +530,7 @@ def told(design: dict[str, Any], problem: dict[str, Any] = ROUGH, **tables: Any)
     make_design(study_from_table(study(problem, {"minimise": "max_pressure", **design}, **tables), Path()))
 
 
+LOADS = {"path": "control.mean_pressure", "values": ["100 MPa", "300 MPa"]}
 BAD = {
     "path": ({"variables": [{**THICKNESS, "path": "body.layers.3.thickness"}]}, InputError, "path", "layers.3"),
     "unit": ({"variables": [{**THICKNESS, "low": "20 Pa"}]}, UnitError, "body.layers.0.thickness", "Pa"),
@@ -428,6 +604,25 @@ def test_what_cannot_be_a_design_is_refused_before_it_is_solved(name: str):
     design, kind, subject, shown = BAD[name]
     with refused(kind, subject, shown):
         told(design)
+
+
+DERIVED = {
+    "letter": ({"variables": [{**THICKNESS, "name": "E2"}]}, InputError, "letter E2", "body.layers.0.thickness"),
+    "expression": ({"minimise": "cost"}, InputError, "expression of cost", "prise"),
+    "unit": ({"constraints": [{"quantity": "work", "at_most": "1 nm"}]}, UnitError, "limit of work", "nm"),
+    "axis": ({"variables": [{**THICKNESS, "name": "load"}]}, InputError, "name of a variable", "load"),
+}
+
+
+@pytest.mark.parametrize("name", DERIVED)
+def test_what_cannot_be_derived_is_refused_before_it_is_solved(name: str):
+    design, kind, subject, shown = DERIVED[name]
+    derived = {"work": "approach * E2", "cost": "thickness * prise" if name == "expression" else "thickness"}
+    variables = design.get("variables", [THICKNESS])
+    derived["cost"] = derived["cost"].replace("thickness", str(variables[0].get("name", "thickness")))
+    letters = {"E2": "body.base.youngs_modulus"}
+    with refused(kind, subject, shown):
+        told({"variables": variables, **design}, derived=derived, letters=letters, axes=[{**LOADS, "name": "load"}])
 
 
 def test_a_choice_whose_strength_is_not_known_is_refused():

@@ -13,8 +13,9 @@ from pathlib import Path
 
 import pytest
 from refusals import refused
-from study_cases import CRASHING, LOADS, QUICK, SLOW, InProcess, plan, workers_of
+from study_cases import CRASHING, LOADS, PROBLEM, QUICK, SLOW, InProcess, plan, workers_of
 
+import asperity as asp
 from asperity.core.errors import InputError
 from asperity.studies import local
 from asperity.studies.cluster import DaskCluster
@@ -172,6 +173,21 @@ def test_a_cluster_gives_the_same_bits_also_when_a_worker_is_killed(tmp_path):
     for name, value in dataset(made, tmp_path / "local.log").data_vars.items():
         if name not in ("wall_time", "outcome"):
             assert value.notnull().all()
+
+
+@pytest.mark.slow
+def test_a_design_on_a_cluster_is_the_same(tmp_path):
+    pytest.importorskip("distributed", reason="the extra dask is not installed")
+    heights = {"path": "surface.spectrum.rms_height", "low": "0.5 nm", "high": "4 nm"}
+    limits = [{"quantity": "mean_gap", "at_least": "1.5 nm"}]
+    design = {"minimise": "max_pressure", "variables": [heights], "constraints": limits}
+    table = {"version": 1, "problem": PROBLEM, "design": design}
+    cluster = Cluster(tmp_path, 2)
+    try:
+        found = asp.optimise(table, dask=cluster.address)
+    finally:
+        cluster.stop()
+    assert found.record() == asp.optimise(table).record()
 
 
 def test_a_scheduler_that_does_not_answer_is_said(monkeypatch):

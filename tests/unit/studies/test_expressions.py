@@ -92,6 +92,22 @@ def test_values_are_those_of_python(a: float, b: float, c: float) -> None:
     assert float(made) == pytest.approx(a**2 / (b + c) + np.sqrt(a * b) * np.log(c) - np.pi, rel=1e-14, abs=1e-14)
 
 
+@given(st.floats(0.1, 10.0), st.floats(0.1, 10.0), st.floats(0.1, 10.0))
+def test_slopes_are_those_of_differences(a: float, b: float, c: float) -> None:
+    """Central differences with a step h have an error of h² and of the digits over h."""
+    made = Expression("a**2 / (b + c) - sqrt(a*b) * log10(c) + abs(-c)**b * exp(-b) - 3**2 + log(a)", "x")
+    at, along = {"a": a, "b": b, "c": c}, {"a": 1.0, "b": -0.5, "c": 0.3}
+    h = 1e-5 * min(at.values())
+    ends = [made.value({name: at[name] + sign * h * along[name] for name in at}) for sign in (1.0, -1.0)]
+    room = 1e-9 * max(map(abs, ends)) / h * 1e-5
+    assert float(made.slope(at, along)) == pytest.approx((ends[0] - ends[1]) / (2.0 * h), rel=1e-6, abs=room)
+
+
+def test_slopes_of_what_does_not_change_are_zero() -> None:
+    made = Expression("(a - 1)**0.5 + x**2 + 2**x", "x")
+    assert float(made.slope({"a": 1.0, "x": 0.0}, {"a": 0.0, "x": 1.0})) == pytest.approx(np.log(2.0))
+
+
 def test_derived_numbers_lie_on_the_axes(tmp_path: Path) -> None:
     derived = {
         "X": TEXT,

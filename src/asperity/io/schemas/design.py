@@ -89,15 +89,17 @@ class DesignTable(GoalTable):
     Axes of the study are the cases it must do for. With samples, numbers are their mean, less or
     more ``robust`` standard deviations, whichever is worse. ``step`` is the relative step of
     differences, ``tolerance`` the relative change of the objective at which the search ends, above
-    the noise of the grid.
+    the noise of the grid. ``population`` and ``generations`` bound an evolution.
     """
 
     variables: tuple[VariableTable, ...]
     constraints: tuple[ConstraintTable, ...] = ()
     pareto: ParetoTable | None = None
     robust: NonNegative = 0.0
-    method: Literal["auto", "slsqp", "trust-constr"] = "auto"
+    method: Literal["auto", "slsqp", "trust-constr", "evolution"] = "auto"
     starts: Count = 3
+    population: Annotated[int, Whole(5, 1000)] | None = None
+    generations: Annotated[int, Whole(1, 1000)] = 30
     seed: Seed = 1
     tolerance: Fraction = 1e-3
     step: Fraction = 0.05

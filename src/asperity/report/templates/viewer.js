@@ -1251,13 +1251,14 @@ class Curves {
     image.replaceWith(box); box.append(image);
     this.mark = make("span", box, { class: "av-mark", hidden: "" }); this.tip = make("output", box, { class: "av-tip", hidden: "" });
     this.points = [];
+    this.cells = described.filter((axes) => axes.cells).map((axes) => axes.box); // filled with points, each of which is read out all over its cell
     for (const axes of described) for (const curve of axes.curves) {
       const x = floats(curve.x), y = floats(curve.y), places = [];
       for (let k = 0; k < x.length; k++) {
         const u = share(x[k], axes.x), v = share(y[k], axes.y);
         if (!(u >= -0.001 && u <= 1.001 && v >= -0.001 && v <= 1.001)) continue;
         const [l, t, r, b] = axes.box;
-        places.push({ u: l + u * (r - l), v: b + v * (t - b), text: `${curve.name ? `${curve.name}: ` : ""}${said(axes.x.label, x[k])}, ${said(axes.y.label, y[k])}` });
+        places.push({ u: l + u * (r - l), v: b + v * (t - b), text: curve.texts ? curve.texts[k] : `${curve.name ? `${curve.name}: ` : ""}${said(axes.x.label, x[k])}, ${said(axes.y.label, y[k])}` });
       }
       if (places.length) this.points.push(places);
     }
@@ -1270,7 +1271,8 @@ class Curves {
   }
   near(event) {
     const r = this.image.getBoundingClientRect(), x = event.clientX - r.left, y = event.clientY - r.top;
-    let best = null, least = 40 ** 2;
+    const within = this.cells.some(([l, t, right, b]) => x >= l * r.width && x <= right * r.width && y >= t * r.height && y <= b * r.height);
+    let best = null, least = within ? Infinity : 40 ** 2;
     this.points.forEach((places, c) => places.forEach((p, k) => { const d = (p.u * r.width - x) ** 2 + (p.v * r.height - y) ** 2; if (d < least) { least = d; best = [c, k]; } }));
     if (best) this.show(...best); else this.hide();
   }

@@ -165,6 +165,8 @@ class Design(Recorded):
         Why the first of them failed.
     tolerance
         Share of a limit by which it may be missed and still counts as met.
+    citation_keys
+        Keys of the sources behind the contacts of the recommended design.
     """
 
     title: str
@@ -185,6 +187,7 @@ class Design(Recorded):
     failed: int = 0
     failure: str = ""
     tolerance: float = 1e-3
+    citation_keys: tuple[str, ...] = ()
     software: dict[str, str] = field(default_factory=software)
 
     def __getitem__(self, name: str) -> Value:
@@ -244,10 +247,10 @@ class Design(Recorded):
         yield (
             "Recommended",
             ("", "value", "from", "to"),
-            [(each.name, _text(each.value, each.unit), *_bounds(each)) for each in self.variables],
+            [(each.name, value_text(each.value, each.unit), *_bounds(each)) for each in self.variables],
         )
         goals = [one for one in (self.objective, self.second) if one is not None]
-        yield "Objective", ("", "", "value"), [(one.label, one.goal, _text(one.value, one.unit)) for one in goals]
+        yield "Objective", ("", "", "value"), [(one.label, one.goal, value_text(one.value, one.unit)) for one in goals]
         if self.constraints:
             headings = ("", "", "limit", "value", "margin", "", "by 1 % of the limit", "case")
             rows = [_row(each) for each in self.constraints]
@@ -261,16 +264,51 @@ class Design(Recorded):
             shown = {self.objective.name, second.name}
             others = [n for n, each in enumerate(self.variables) if each.name not in shown]
             columns = (self.objective.label, second.label, *(self.variables[n].name for n in others))
-            texts = [[_text(one.objective, self.objective.unit), _text(one.second, second.unit)] for one in front]
+            texts = [
+                [value_text(one.objective, self.objective.unit), value_text(one.second, second.unit)] for one in front
+            ]
             for row, point in zip(texts, front, strict=True):
-                row += [_text(point.values[n], self.variables[n].unit) for n in others]
+                row += [value_text(point.values[n], self.variables[n].unit) for n in others]
             yield "Front", columns, [tuple(row) for row in texts]
+
+    @property
+    def in_words(self) -> tuple[str, ...]:
+        """Each design of the front: both objectives, and the values of the variables."""
+        if self.second is None:
+            return ()
+        goals = (self.objective, self.second)
+        return tuple(
+            ", ".join(
+                f"{one.label} {value_text(value, one.unit)}"
+                for one, value in zip(goals, (point.objective, point.second), strict=True)
+            )
+            + ": "
+            + ", ".join(
+                f"{each.name} {value_text(value, each.unit)}"
+                for each, value in zip(self.variables, point.values, strict=True)
+            )
+            for point in self.front
+        )
+
+    def searches(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+        """Headings of columns and rows of text on where every search has ended."""
+        names = tuple(each.name for each in self.variables)
+        rows = [
+            (
+                *(value_text(value, each.unit) for each, value in zip(self.variables, trial.values, strict=True)),
+                value_text(trial.objective, self.objective.unit),
+                "met" if trial.feasible else "missed",
+                trial.message if trial.converged else f"{trial.message} (not converged)",
+            )
+            for trial in self.trials
+        ]
+        return (*names, self.objective.label, "limits", "ended"), rows
 
     def _change(self, change: Change) -> tuple[str, ...]:
         unit = next(each.unit for each in self.variables if each.name == change.variable)
         ratio = change.objective / self.objective.value - 1.0 if self.objective.value else math.nan
         margins = (_share(margin) for margin in change.margins)
-        return change.variable, _text(change.value, unit), _signed(ratio), *margins
+        return change.variable, value_text(change.value, unit), _signed(ratio), *margins
 
     def record(self) -> dict[str, Any]:
         """Everything as plain values, SI; what is not known is None."""
@@ -289,7 +327,8 @@ class Design(Recorded):
         write_table(rows, path, overwrite=overwrite)
 
 
-def _text(value: Value, unit: str) -> str:
+def value_text(value: Value, unit: str) -> str:
+    """A value of a variable or objective for tables."""
     if isinstance(value, str):
         return value
     return "–" if math.isnan(value) else show(value, unit)
@@ -297,7 +336,7 @@ def _text(value: Value, unit: str) -> str:
 
 def _bounds(each: DesignVariable) -> tuple[str, str]:
     return tuple(  # type: ignore[return-value]
-        "" if math.isnan(end) else _text(end, each.unit) + (" (at it)" if each.at_bound == name else "")
+        "" if math.isnan(end) else value_text(end, each.unit) + (" (at it)" if each.at_bound == name else "")
         for name, end in (("low", each.low), ("high", each.high))
     )
 
@@ -313,5 +352,5 @@ def _signed(value: float) -> str:
 def _row(each: Margin) -> tuple[str, ...]:
     state = "missed" if not each.met else "active" if each.active else "met"
     price = "" if math.isnan(each.price) else f"objective {each.price:+.3g} %"
-    limit, value = _text(each.limit, each.unit), _text(each.value, each.unit)
+    limit, value = value_text(each.limit, each.unit), value_text(each.value, each.unit)
     return each.label, each.goal, limit, value, _share(each.margin), state, price, each.case

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...io.description import software
+from ..derived import Scalars, derived_slopes, derived_values
 from ..executors import Executor, Lost, Task, call
 from ..places import plain
 from ..plan import StudyCase
@@ -83,10 +85,14 @@ class Evaluation:
     solved: int = 0
     reused: int = 0
     seen: dict[Site, Computed] = field(default_factory=dict)
+    ask: Callable[[Sequence[Site]], None] | None = field(default=None, init=False)
 
     def __post_init__(self) -> None:
         asked = self.problem.plan.quantities
-        self._slopes = self.problem.paths if differentiable(self._needed) and asked else ()
+        # what an axis sets by an expression may change with a number, beside what the number sets
+        self._ruled = any(axis.rule is not None for axis in self.problem.plan.axes)
+        self._slopes = self.problem.paths if differentiable(self._needed) and asked and not self._ruled else ()
+        self._indices = [[case.index for case in path] for path in self.problem.plan.paths()]
 
     @property
     def _needed(self) -> tuple[str, ...]:
@@ -96,6 +102,22 @@ class Evaluation:
     def __call__(self, sites: Sequence[Site]) -> list[Computed]:
         """The designs at ``sites``, computed together where they are not known."""
         new = [site for site in dict.fromkeys(sites) if site not in self.seen]
+        if new:
+            (self.ask or self._compute)(new)
+        return [self.seen[site] for site in sites]
+
+    @property
+    def several(self) -> bool:
+        """Whether more than one design can be computed at a time."""
+        return not isinstance(self.executor, Here)
+
+    def asking(self, ask: Callable[[Sequence[Site]], None]) -> Evaluation:
+        """The same, but what is not known is computed by ``ask``."""
+        made = copy(self)
+        made.ask = ask
+        return made
+
+    def _compute(self, new: Sequence[Site]) -> None:
         paths = {site: self._paths(site) for site in new}
         cases = [case for site in new for path in paths[site] for case in path]
         there = sum(case.key in self.known for case in cases)
@@ -106,19 +128,18 @@ class Evaluation:
                 self.store.append(found)
             self.known |= {record["key"]: record for record in found}
             self.solved += len(found)
-        if new:
-            self.reused += there
-            self.report(self.solved, self.reused)
+        self.reused += there
+        self.report(self.solved, self.reused)
         self.seen |= {site: self._gathered(site, paths[site]) for site in new}
-        return [self.seen[site] for site in sites]
 
     def _paths(self, site: Site) -> list[list[StudyCase]]:
         """Cases of the design, those that differ in the load alone together."""
         plan, changes, mark = self.problem.plan, self.problem.edits(site), ":".join(self._slopes)
-        return [
-            [StudyCase(case.index, (*changes, *case.edits), plan.key((*changes, *case.edits), mark)) for case in path]
-            for path in plan.paths()
-        ]
+        scalars, found = plan.scalars.after(changes), list[list[StudyCase]]()
+        for path in self._indices:
+            edits = [(*changes, *plan.edits(index, scalars)) for index in path]
+            found.append([StudyCase(index, own, plan.key(own, mark)) for index, own in zip(path, edits, strict=True)])
+        return found
 
     def _task(self, path: Sequence[StudyCase]) -> Task | None:
         missing = [case for case in path if case.key not in self.known]
@@ -157,7 +178,33 @@ class Evaluation:
                         factor * record["values"].get(slope_name(name, path), math.nan) for path, factor in terms
                     )
         known = {key: array for key, array in slopes.items() if np.all(np.isfinite(array))}
+        if plan.derived:
+            self._derive(site, values, known)
         return Computed(site, values, known, error)
+
+    def _derive(self, site: Site, values: dict[str, RealArray], slopes: dict[tuple[str, int], RealArray]) -> None:
+        """Add what is derived to the ``values`` and ``slopes`` of a design, (samples, cases)."""
+        plan = self.problem.plan
+        scalars: Scalars = plan.scalars.after(self.problem.edits(site))
+        shape = (self.problem.samples, plan.n_cases // self.problem.samples)
+        made = derived_values(plan.derived, scalars, {name: each.reshape(plan.shape) for name, each in values.items()})
+        values |= {name: each.reshape(shape) for name, each in made.items()}
+        if self._ruled:
+            return
+        names = {name for item in plan.derived for name in item.expression.names} & scalars.units.keys()
+        known = values | {name: scalars.named(name).reshape(shape) for name in names}
+        for n, each in enumerate(self.problem.numbers):
+            factors = {each.place.keys: 1.0} | {place.keys: factor for place, factor in each.also}
+            places = {name: scalars.letters[name].keys if name in scalars.letters else () for name in names}
+            along = {name: np.full(shape, factors.get(places[name], 0.0)) for name in names}
+            along |= {name: slope for (name, number), slope in slopes.items() if number == n and name not in names}
+            found = derived_slopes(plan.derived, known, along)
+            slopes |= {(name, n): np.broadcast_to(slope, shape) for name, slope in found.items()}
+
+    def citation_keys(self, site: Site) -> tuple[str, ...]:
+        """Keys of the sources behind the cases of a design that is computed."""
+        records = (self.known[case.key] for path in self._paths(site) for case in path)
+        return tuple(dict.fromkeys(key for record in records for key in record["citations"]))
 
     def value(self, criterion: Criterion, found: Computed) -> RealArray:
         """Value of ``criterion`` in each of its cases, (n,), or their mean: of samples the mean,

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from .problem import Criterion, Site
 from .search import Aim, Search, Start
+from .searches import Job, each_of, searched
 
 
 def front(search: Search, best: Start) -> tuple[Site, ...]:
@@ -17,8 +19,8 @@ def front(search: Search, best: Start) -> tuple[Site, ...]:
     the second.
 
     The ends are the best of each objective; between them the best of the first is sought at equally
-    spaced limits of the second (epsilon constraint, Haimes et al. 1971). Of choices alone all are
-    compared.
+    spaced limits of the second (epsilon constraint, Haimes et al. 1971), each from a place between
+    the ends. Of choices alone all are compared.
 
     Parameters
     ----------
@@ -30,17 +32,23 @@ def front(search: Search, best: Start) -> tuple[Site, ...]:
     problem = search.problem
     assert problem.second is not None
     aim, second = Aim(problem.objective, problem.constraints), problem.second
-    if not problem.numbers:
+    if not problem.numbers and not problem.evolves:
         return _undominated(search, [Site(choice, ()) for choice in problem.combinations()])
-    other = search.all(Aim(second, problem.constraints))[0]
+    other = searched(search, Aim(second, problem.constraints))[0]
     ends = [search.evaluation.worst(second, search.met(site)) for site in (best.site, other.site)]
-    sites = [best.site]
-    for limit in _between(ends[0], ends[1], problem.table.pareto.points if problem.table.pareto else 3):
-        bounded = Aim(aim.objective, (*aim.constraints, replace(second, limit=limit)))
-        first = problem.shares(sites[-1])
-        found = [search.local(bounded, choice, first, "slsqp") for choice in problem.combinations()]
-        sites += [start.site for start in found]
-    return _undominated(search, [*sites, other.site])
+    limits = _between(ends[0], ends[1], problem.table.pareto.points if problem.table.pareto else 3)
+    aims = [Aim(aim.objective, (*aim.constraints, replace(second, limit=limit))) for limit in limits]
+    if problem.evolves:
+        found = [start for bounded in aims for start in searched(search, bounded)]
+    else:
+        shares = np.linspace(problem.shares(best.site), problem.shares(other.site), len(aims) + 2)[1:-1]
+        jobs: list[Job] = [
+            partial(Search.local, aim=bounded, choice=choice, first=first, method="slsqp")
+            for bounded, first in zip(aims, shares, strict=True)
+            for choice in problem.combinations()
+        ]
+        found = each_of(search, aim, jobs)
+    return _undominated(search, [best.site, *(start.site for start in found), other.site])
 
 
 def _between(first: float, last: float, count: int) -> list[float]:
@@ -65,7 +73,9 @@ def _undominated(search: Search, sites: Sequence[Site]) -> tuple[Site, ...]:
     def beaten(one: tuple[Site, float, float]) -> bool:
         room = [tolerance * abs(value) for value in one[1:]]
         return any(
-            other[1] <= one[1] and other[2] <= one[2] and (other[1] < one[1] - room[0] or other[2] < one[2] - room[1])
+            other[1] <= one[1] + room[0]
+            and other[2] <= one[2] + room[1]
+            and (other[1] < one[1] - room[0] or other[2] < one[2] - room[1])
             for other in kept
         )
 

@@ -14,6 +14,7 @@ import numpy as np
 from ...core.errors import ConvergenceError
 from ...core.units import percent
 from ..campaign import RECORDS, make, require_own, write_study
+from ..cluster import DaskCluster
 from ..documents import LoadedStudy, load_study, study_from_table
 from ..executors import Executor
 from ..local import LocalProcesses
@@ -23,6 +24,7 @@ from .evaluation import Evaluation, Here
 from .front import front
 from .problem import Criterion, DesignProblem, Site, make_design, rounded
 from .search import ACTIVE, Aim, Search, Start
+from .searches import searched
 
 CHANGE = 0.1
 """Relative change of each number whose effect is told."""
@@ -36,6 +38,7 @@ def optimise(
     folder: str | Path | None = None,
     *,
     workers: int = 1,
+    dask: str | None = None,
     retry: bool = False,
     progress: Progress | None = None,
 ) -> Design:
@@ -43,10 +46,10 @@ def optimise(
 
     Numbers are sought by gradients (sequential quadratic programmes, Kraft 1988; or a trust region)
     from several starts, in logarithms and with scaled objective and constraints; choices are all
-    tried. The derivatives are those of the contact on its set where it has them, else central
-    differences with a step above the jumps of the area from pixel to pixel. One number with a
-    limit is a root. All designs are computed with the same samples. See the how-to page on designs
-    for the document.
+    tried, or evolve together with the numbers (differential evolution, Storn & Price 1997). The
+    derivatives are those of the contact on its set where it has them, else central differences with
+    a step above the jumps of the area from pixel to pixel. One number with a limit is a root. All
+    designs are computed with the same samples. See the how-to page on designs for the document.
 
     Parameters
     ----------
@@ -57,7 +60,11 @@ def optimise(
         Where every contact that is solved is kept: a search that is run again there repeats none.
         By default beside the document, named after it; of dictionaries nowhere.
     workers
-        Number of worker processes; 1 computes in this process.
+        Number of worker processes; 1 computes in this process. With several, cases, starts,
+        choices, points of a front and designs of a generation are computed at once; what is found
+        is the same.
+    dask
+        Address of a Dask scheduler whose workers are used instead.
     retry
         Whether contacts that failed in an earlier run are solved again.
     progress
@@ -75,7 +82,9 @@ def optimise(
     """
     loaded, target = loaded_study(study, folder)
     problem = make_design(loaded)
-    with evaluating(problem, (loaded, target), workers=workers, retry=retry, progress=progress) as evaluation:
+    with evaluating(
+        problem, (loaded, target), workers=workers, dask=dask, retry=retry, progress=progress
+    ) as evaluation:
         return _design(Search(problem, evaluation))
 
 
@@ -87,12 +96,17 @@ def evaluating(
     workers: int,
     retry: bool,
     progress: Progress | None,
+    dask: str | None = None,
 ) -> Iterator[Evaluation]:
-    """What computes designs of ``problem``, with its worker processes and, where the study has a
+    """What computes designs of ``problem``, with its workers and, where the study has a
     folder (``place``), the store there; errors as of ``optimise``."""
     loaded, target = place
     with ExitStack() as stack:
-        executor: Executor = Here() if workers == 1 else stack.enter_context(LocalProcesses(workers).kept())
+        executor: Executor = Here()
+        if dask is not None:
+            executor = stack.enter_context(DaskCluster(dask).kept())
+        elif workers != 1:
+            executor = stack.enter_context(LocalProcesses(workers).kept())
         store, known = None, dict[str, Record]()
         if target is not None:
             store, known = stack.enter_context(_kept(target, loaded, retry=retry))
@@ -128,7 +142,7 @@ def _design(search: Search) -> Design:
     """The answer of all searches of a problem."""
     problem, evaluation = search.problem, search.evaluation
     aim = Aim(problem.objective, problem.constraints)
-    trials = search.all(aim)
+    trials = searched(search, aim)
     visited = tuple(search.visited)
     best, computed = trials[0], [found for found in evaluation.seen.values() if not found.error]
     if not computed:
@@ -159,6 +173,7 @@ def _design(search: Search) -> Design:
         failed=len(failed),
         failure=failed[0] if failed else "",
         tolerance=search.tolerance,
+        citation_keys=evaluation.citation_keys(site),
     )
 
 

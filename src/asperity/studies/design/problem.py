@@ -16,17 +16,19 @@ from ...core import units
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...io.schemas.design import ConstraintTable, DesignTable, GoalTable, VariableTable
-from ...io.schemas.study import DEFAULT_QUANTITIES, AxisTable
+from ...io.schemas.study import DEFAULT_QUANTITIES, AxisTable, DerivedTable
 from ...run.build import build
 from ...run.document import checked
 from ...run.refusals import stand_ins
 from ..axes import Base, Point, make_axis
 from ..documents import LoadedStudy
+from ..expressions import Expression
 from ..places import Edit, Place, edited, locate, problem_table
 from ..plan import Plan, limit_of, make_plan, measures
 
-MOST_CHOICES = 200
-"""Combinations of choices that a design may have; each is searched by itself."""
+MOST_CHOICES, MOST_SEARCHES = 200, 60
+"""Combinations of choices that are all tried, and searches by gradients (combinations times starts)
+beyond which choices and numbers evolve together unless something else is asked for."""
 
 DIGITS = 9
 """Digits of the values of variables: a search that is run again finds the same ones."""
@@ -160,6 +162,20 @@ class DesignProblem:
         return found
 
     @property
+    def evolves(self) -> bool:
+        """Whether choices and numbers are sought together by an evolution: where it is asked for,
+        and where searches for each combination of choices would be too many."""
+        if self.table.method != "auto":
+            return self.table.method == "evolution"
+        count = math.prod(len(each.points) for each in self.choices)
+        return count > 1 and (count * self.table.starts > MOST_SEARCHES if self.numbers else count > MOST_CHOICES)
+
+    @property
+    def population(self) -> int:
+        """Designs of a generation of an evolution."""
+        return self.table.population or min(max(8 * len(self.variables), 16), 64)
+
+    @property
     def variables(self) -> tuple[Variable, ...]:
         """Numbers, then choices."""
         return (*self.numbers, *self.choices)
@@ -206,9 +222,15 @@ class DesignProblem:
         return np.array([each.share(v) for each, v in zip(self.numbers, place.values, strict=True)])
 
     def edits(self, place: Site) -> tuple[Edit, ...]:
-        """Changes of the base problem for a design; choices first, which may take a table whole."""
-        chosen = [e for each, n in zip(self.choices, place.choice, strict=True) for e in each.points[n].edits]
-        return (*chosen, *(e for each, v in zip(self.numbers, place.values, strict=True) for e in each.edits(v)))
+        """Changes of the base problem for a design."""
+        return edits_of(self.numbers, self.choices, place)
+
+
+def edits_of(numbers: tuple[Variable, ...], choices: tuple[Variable, ...], place: Site) -> tuple[Edit, ...]:
+    """Changes of the base problem by which the variables have their values of a design; choices
+    first, which may take a table whole."""
+    chosen = [e for each, n in zip(choices, place.choice, strict=True) for e in each.points[n].edits]
+    return (*chosen, *(e for each, v in zip(numbers, place.values, strict=True) for e in each.edits(v)))
 
 
 def make_design(study: LoadedStudy) -> DesignProblem:
@@ -237,10 +259,13 @@ def make_design(study: LoadedStudy) -> DesignProblem:
     asked = [
         name for name in _asked(table) if name not in (*names, *(each.place.path for each in (*numbers, *choices)))
     ]
+    letters = _letters(study.document.letters, (*numbers, *choices))
+    asked = _measured(asked, study.document.derived, letters)
     kept = () if study.document.quantities == DEFAULT_QUANTITIES else study.document.quantities
     quantities = tuple(dict.fromkeys((*asked, *kept))) or DEFAULT_QUANTITIES[:1]
-    document = study.document.model_copy(update={"quantities": quantities})
-    plan = make_plan(LoadedStudy(document, study.problem, study.folder))
+    document = study.document.model_copy(update={"quantities": quantities, "letters": letters})
+    first = edits_of(numbers, choices, Site((0,) * len(choices), tuple(each.start for each in numbers)))
+    plan = make_plan(LoadedStudy(document, study.problem, study.folder), first)
     _require_apart(plan, (*numbers, *choices))
     found = DesignProblem(plan, numbers, choices, _goal(table, plan, numbers, choices), None, ())
     second = None if table.pareto is None else _goal(table.pareto, plan, numbers, choices)
@@ -255,6 +280,27 @@ def _asked(table: DesignTable) -> Iterator[str]:
         if goal is not None:
             yield str(goal.minimise or goal.maximise)
     yield from (item.quantity for item in table.constraints)
+
+
+def _letters(given: Mapping[str, str], variables: tuple[Variable, ...]) -> dict[str, str]:
+    """Paths by the letters of expressions: those ``given``, and the names of variables."""
+    letters = dict(given)
+    for each in variables:
+        if letters.setdefault(each.name, each.place.path) != each.place.path:
+            raise InputError(
+                f"letter {each.name} must lead to the variable of this name, {each.place.path}, but leads to "
+                f"{given[each.name]}; give one of them another name."
+            )
+    return {name: path for name, path in letters.items() if name in given or name.isidentifier()}
+
+
+def _measured(names: list[str], derived: Mapping[str, DerivedTable], letters: Mapping[str, str]) -> list[str]:
+    """Quantities of a contact that the numbers with these ``names`` take, which may be derived."""
+    known, found = measures(), [name for name in names if name not in derived]
+    for name, table in derived.items():
+        taken = Expression(table.expression, f"expression of {name}").names
+        found += [other for other in taken if other in known and other not in letters]
+    return list(dict.fromkeys(found))
 
 
 def _variables(base: Base, table: DesignTable) -> tuple[tuple[Variable, ...], tuple[Variable, ...]]:
@@ -277,9 +323,12 @@ def _variables(base: Base, table: DesignTable) -> tuple[tuple[Variable, ...], tu
         else:
             axis = make_axis(base, AxisTable(path=item.path, values=item.choices, also=item.also), name)
             choices.append(Variable(name, locate(base.document, item.path), points=tuple(axis.points)))
-    if math.prod(len(each.points) for each in choices) > MOST_CHOICES:
-        count = math.prod(len(each.points) for each in choices)
-        raise InputError(f"choices of a design must have at most {MOST_CHOICES} combinations, but have {count}.")
+    count = math.prod(len(each.points) for each in choices)
+    if count > MOST_CHOICES and table.method not in ("auto", "evolution"):
+        raise InputError(
+            f"choices of a design must have at most {MOST_CHOICES} combinations for the method {table.method}, but "
+            f"have {count}; give the method evolution."
+        )
     return tuple(numbers), tuple(choices)
 
 
@@ -333,7 +382,7 @@ def _goal(table: GoalTable, plan: Plan, numbers: tuple[Variable, ...], choices: 
             return Criterion(each.name, each.place.unit, each.name.replace("_", " "), larger, variable=number)
     if name in {text for each in choices for text in (each.name, each.place.path)}:
         raise InputError(f"objective of a design must be a quantity or a number, but {name} is a choice.")
-    known = measures()[name]
+    known = plan.known[name]
     return Criterion(name, known.unit, known.label, larger, over=table.over, cases=_cases(plan, table.at, name))
 
 
@@ -344,7 +393,7 @@ def _limit(table: ConstraintTable, found: DesignProblem, number: int) -> Criteri
             raise InputError(
                 f"quantity of constraint {number + 1} must not be a variable, but {name} is one; narrow its bounds."
             )
-    known, larger = measures()[name], table.at_least is not None
+    known, larger = found.plan.known[name], table.at_least is not None
     text = table.at_least if larger else table.at_most
     limit = limit_of(text, known.unit, f"limit of {name}")
     return Criterion(name, known.unit, known.label, larger, limit, table.over, _cases(found.plan, table.at, name))
@@ -384,6 +433,13 @@ def _require_apart(plan: Plan, variables: tuple[Variable, ...]) -> None:
     """Refuse scalars that two variables, or a variable and an axis, set."""
     seen: list[tuple[tuple[Any, ...], str]] = []
     for axis in plan.axes:
+        if axis.name in {each.name for each in variables}:
+            raise InputError(
+                f"name of a variable must differ from those of the axes, but {axis.name} is one; give it another name."
+            )
+        if axis.rule is not None:
+            own = axis.rule.place.keys
+            seen.append((("control",) if own[0] == "control" else own, axis.name))
         for edit in axis.points[0].edits:
             seen.append((("control",) if edit.keys[0] == "control" else edit.keys, axis.name))
     for each in variables:
@@ -400,15 +456,27 @@ def _require_apart(plan: Plan, variables: tuple[Variable, ...]) -> None:
             seen.append((found, each.name))
 
 
+def _to_check(design: DesignProblem) -> Iterator[tuple[int, ...]]:
+    """Combinations of choices that are built before anything is solved: all, or of many those that
+    differ from the first in one choice."""
+    counts = [len(each.points) for each in design.choices]
+    if math.prod(counts) <= MOST_CHOICES:
+        yield from design.combinations()
+        return
+    first = (0,) * len(counts)
+    for n, count in enumerate(counts):
+        yield from ((*first[:n], at, *first[n + 1 :]) for at in range(min(n, 1), count))
+
+
 def _require_possible(design: DesignProblem, base: Base, asked: list[str]) -> None:
     """Refuse a design that cannot be built, or whose quantities lack data, in one of the choices;
     surfaces are not made."""
     table, plan = problem_table(base.document), design.plan
     ends = [tuple(each.low for each in design.numbers), tuple(each.high for each in design.numbers)]
-    first = tuple(edit for axis in plan.axes for edit in axis.points[0].edits)
-    for choice in design.combinations():
+    for choice in _to_check(design):
         for values in dict.fromkeys(ends):
-            edits = (*design.edits(Site(choice, values)), *first)
+            own = design.edits(Site(choice, values))
+            edits = (*own, *plan.edits((0,) * len(plan.axes), plan.scalars.after(own)))
             shown = ", ".join(f"{'.'.join(map(str, edit.keys))} = {edit.value!r}" for edit in edits)
             case = build(checked(edited(table, edits), f"problem with {shown}"), base.folder, surfaces=stand_ins)
             for part in (part for part in case.parts if part.name in case.asks):

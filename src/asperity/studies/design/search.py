@@ -1,5 +1,4 @@
-"""Searches for the best design: by gradients from several starts, for the root of one bound, over
-all choices."""
+"""Searches for the best design from one start: by gradients, and for the root of one bound."""
 
 from __future__ import annotations
 
@@ -200,9 +199,9 @@ class Search:
         good = next((number for number, value in enumerate(margins) if value >= 0.0), None)
         if good is None:
             number = int(np.argmax(margins))
-            return self._ended(aim, at(places[number]), converged=False, message="no start meets all limits")
+            return self.ended(aim, at(places[number]), converged=False, message="no start meets all limits")
         if good == 0:
-            return self._ended(aim, at(places[0]), converged=True, message="the limits hold up to the bound")
+            return self.ended(aim, at(places[0]), converged=True, message="the limits hold up to the bound")
         each = self.problem.numbers[0]
         accuracy = self.tolerance / (each.width if each.log else 1.0)
         low, high = places[good - 1], places[good]
@@ -217,7 +216,7 @@ class Search:
             return -along if back else along
 
         end, done = _newton(margin, slope, (low, high), accuracy)
-        return self._ended(aim, at(end), converged=done, message="root of the limit")
+        return self.ended(aim, at(end), converged=done, message="root of the limit")
 
     def _known_rate(self, criterion: Criterion, found: Computed) -> RealArray | None:
         slope = self.evaluation.slope(criterion, found, 0)
@@ -225,49 +224,10 @@ class Search:
             return None
         return slope * self._scaled(criterion, found)[1] * self.problem.numbers[0].rate(found.site.values[0])
 
-    def _ended(self, aim: Aim, site: Site, *, converged: bool, message: str) -> Start:
+    def ended(self, aim: Aim, site: Site, *, converged: bool, message: str) -> Start:
+        """A search that has ended at ``site``."""
         rows = self.rows(aim, self.met(site))
         return Start(site, float(rows.objective.max()), rows.violation, converged, message)
-
-    # All starts and choices.
-
-    def starts(self) -> RealArray:
-        """Shares of the ranges to start from, (starts, numbers): those of the problem, and a Latin
-        hypercube (McKay, Beckman & Conover 1979)."""
-        from scipy.stats import qmc
-
-        numbers, table = self.problem.numbers, self.problem.table
-        first = np.array([[each.share(each.start) for each in numbers]])
-        if table.starts == 1 or not numbers:
-            return first
-        drawn = qmc.LatinHypercube(len(numbers), seed=np.random.default_rng(table.seed)).random(table.starts - 1)
-        return np.concatenate([first, drawn])
-
-    def all(self, aim: Aim) -> list[Start]:
-        """Searches from all starts for all choices, the best first."""
-        table, found = self.problem.table, list[Start]()
-        choices = list(self.problem.combinations())
-        if not self.problem.numbers:
-            sites = [Site(choice, ()) for choice in choices]
-            self.evaluation(sites)
-            found = [self._ended(aim, site, converged=True, message="computed") for site in sites]
-            return sorted(found, key=self.rank)
-        shares = self.starts()
-        self.met(self.problem.place(choices[0], shares[0]))  # which sets the scales
-        single = len(self.problem.numbers) == 1 and aim.objective.variable == 0 and aim.constraints
-        method = "slsqp" if table.method == "auto" else table.method
-        for choice in choices:
-            if single and table.method == "auto":
-                found.append(self.root(aim, choice, [float(share) for share in shares[:, 0]]))
-                continue
-            self.evaluation([self.problem.place(choice, first) for first in shares])
-            found += [self.local(aim, choice, first, method) for first in shares]
-        found = sorted(found, key=self.rank)
-        if found[0].violation > self.tolerance:
-            first = self.problem.shares(found[0].site)
-            found.insert(0, self.local(aim, found[0].site.choice, first, "slsqp", nearest=True))
-            found = sorted(found, key=self.rank)
-        return found
 
     def rank(self, start: Start) -> tuple[float, float]:
         """What is smaller for the better one of two ends: the violation, and then the objective."""
