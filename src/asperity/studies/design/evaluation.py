@@ -85,8 +85,8 @@ class Evaluation:
     seen: dict[Site, Computed] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        asked = self.problem.plan.quantities
-        self._slopes = self.problem.paths if differentiable(self._needed) and asked else ()
+        self._sloped = differentiable(self._needed) if self.problem.plan.quantities else ()
+        self._slopes = self.problem.paths if self._sloped else ()
 
     @property
     def _needed(self) -> tuple[str, ...]:
@@ -114,7 +114,7 @@ class Evaluation:
 
     def _paths(self, site: Site) -> list[list[StudyCase]]:
         """Cases of the design, those that differ in the load alone together."""
-        plan, changes, mark = self.problem.plan, self.problem.edits(site), ":".join(self._slopes)
+        plan, changes, mark = self.problem.plan, self.problem.edits(site), ":".join((*self._slopes, *self._sloped))
         return [
             [StudyCase(case.index, (*changes, *case.edits), plan.key((*changes, *case.edits), mark)) for case in path]
             for path in plan.paths()
@@ -131,6 +131,7 @@ class Evaluation:
             "quantities": list(plan.quantities),
             "version": software()["asperity"],
             "slopes": list(self._slopes),
+            "sloped": list(self._sloped),
             "cases": [
                 {"key": case.key, "index": list(case.index), "edits": [plain(edit) for edit in case.edits]}
                 for case in missing
@@ -158,6 +159,13 @@ class Evaluation:
                     )
         known = {key: array for key, array in slopes.items() if np.all(np.isfinite(array))}
         return Computed(site, values, known, error)
+
+    def recorded(self, site: Site, name: str) -> RealArray:
+        """Any quantity ``name`` that costs nothing, in all cases of the design at ``site``, (n,);
+        NaN where it is not known."""
+        self([site])
+        records = [self.known[case.key] for path in self._paths(site) for case in path]
+        return np.array([record["values"].get(name, math.nan) for record in records])
 
     def value(self, criterion: Criterion, found: Computed) -> RealArray:
         """Value of ``criterion`` in each of its cases, (n,), or their mean: of samples the mean,
