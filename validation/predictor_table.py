@@ -1,6 +1,6 @@
 """Solves the contacts behind ``asperity.predict`` and writes its tables.
 
-    python validation/predictor_table.py [--seeds 16] [--only master,layer,stress,withheld,capped]
+    python validation/predictor_table.py [--seeds 16] [--only master,layer,several,capped]
 
 Surfaces have an exponential autocorrelation whose 10 % length β is the unit of length, and press on
 a half-space or on one layer. Everything is kept by dimensionless groups, so the numbers of metres
@@ -169,6 +169,27 @@ def withheld() -> Iterator[dict[str, Any]]:
             yield from beside(label, grid_of(256, 30.0), model, body())
 
 
+SEVERAL = (
+    *(((2.0, 0.1), (1.5, 0.3)), ((4.0, 0.05), (2.0, 0.2)), ((0.4, 0.15), (0.7, 0.4)), ((5.0, 0.1), (3.0, 0.15))),
+    *(((1.5, 0.05), (2.5, 0.1), (1.3, 0.4)), ((0.6, 0.1), (3.0, 0.1), (0.8, 0.2))),
+    *(((2.0, 0.15), (0.4, 0.15), (3.0, 0.3)), ((3.0, 0.1), (0.5, 0.2)), ((0.5, 0.1), (2.0, 0.3))),
+    ((0.3, 0.05), (4.0, 0.2)),
+)
+"""E1/E2 and thickness over β of the layers of bodies with several, from the top."""
+
+
+def several() -> Iterator[dict[str, Any]]:
+    """Bodies of two and three layers, solved and predicted by the one layer nearest to theirs;
+    those that are refused are left out."""
+    for layers in SEVERAL:
+        made = [asp.Layer(asp.Elastic(ratio * E, NU), thickness=thickness * BETA) for ratio, thickness in layers]
+        label = "layers " + ", ".join(f"{ratio:g} E2 of {thickness:g} β" for ratio, thickness in layers)
+        for n, size in ((128, 20.0), (160, 16.0)):
+            with suppress(asp.InputError):
+                rough = ExponentialAutocorrelation(RMS, BETA)
+                yield from beside(label, grid_of(n, size), rough, asp.Layered(made, base=asp.Elastic(E, NU)))
+
+
 def beside(label: str, grid: asp.Grid, spectrum: Any, solid: Any) -> Iterator[dict[str, Any]]:
     """Means of solved contacts, and what is predicted with its error."""
     waves = Waves.of_spectrum(grid, spectrum, solid)
@@ -288,7 +309,7 @@ def main() -> None:
     """Write the tables that are asked for."""
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("--seeds", type=int, default=16)
-    asked.add_argument("--only", default="master,layer,stress,withheld,capped,shaped")
+    asked.add_argument("--only", default="master,layer,stress,withheld,several,capped,shaped")
     given = asked.parse_args()
     makers = {
         "master": (
@@ -301,6 +322,7 @@ def main() -> None:
             f"y = {LAYER_PRESSURES}, {LAYER_SEEDS} surfaces",
         ),
         "withheld": (withheld, "contacts that the tables have not seen, solved and predicted"),
+        "several": (several, "contacts with two and three layers, solved and predicted by the one nearest layer"),
         "capped": (capped, "contacts under a hardness over the rms pressure of full contact, beside the elastic ones"),
         "shaped": (shaped, "relative deviation of solved from predicted means of surfaces that are not Gaussian"),
         "stress": (lambda: stressed(given.seeds), "largest sqrt(J2) over the largest pressure on a half-space, nu 0.3"),

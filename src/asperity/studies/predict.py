@@ -19,7 +19,7 @@ from ..core.status import Advice
 from ..core.words import in_words
 from ..solids.compliance.halfspace import contact_compliance
 from ..solids.elastic import Elastic, Rigid
-from ..solids.layers import Body, Bonded, Layered, contact_modulus, weaker_strength
+from ..solids.layers import Body, Layered, contact_modulus, weaker_strength
 from ..surfaces.characterise.correlation import DROP_TENTH, autocovariance
 from ..surfaces.characterise.heights import height_parameters
 from ..surfaces.characterise.spectrum import PowerSpectrum, power_spectrum
@@ -42,12 +42,10 @@ from ..theories.rough.predictor import (
     of_shape,
     predictor,
 )
+from .one_layer import one_layer
 
 Rough: TypeAlias = Surface | Spectrum
 """A measured or generated map, or the spectrum of surfaces that have not been made."""
-
-LAYER_NU = (0.2, 0.4)
-"""Poisson's ratios of a layer and its base between which the factors of a layer hold."""
 
 LEAST_PROPORTION, LARGEST_PROPORTION = 0.5, 2.0
 """Ratio of the 10 % lengths along x and y between which a surface counts as isotropic."""
@@ -286,8 +284,8 @@ def predict(
         Map of heights (levelled, if measured), or a spectrum such as
         ``ExponentialAutocorrelation(rms_height, correlation_length)`` of surfaces on a ``grid``.
     body
-        Half-space, or one bonded layer on a half-space with 0.25 <= E1/E2 <= 5.6 and Poisson's
-        ratios from 0.2 to 0.4.
+        Half-space, or bonded layers on a half-space with Poisson's ratios from 0.2 to 0.4: one with
+        0.25 <= E1/E2 <= 5.6, or several that are about as compliant as one.
     control
         ``MeanPressure`` in Pa or ``Force`` in N.
     grid
@@ -319,7 +317,7 @@ def predict(
     waves, used = _waves(surface, grid, body, counter_body)
     pressure = mean_pressure(control, used)
     require.positive(pressure, "mean pressure of a prediction (Pa)")
-    ratio, thickness = _layer(body, counter_body)
+    ratio, thickness, of_layers = one_layer(body, counter_body, waves.length, used)
     base = Groups(
         pressure / waves.full_contact,
         pressure * waves.length / (waves.modulus * waves.rms * waves.stiffening),
@@ -338,10 +336,10 @@ def predict(
             "surface must have an exponential autocorrelation for a prediction with a pull, but has another. "
             f"Solve it: {in_words('{solve}')}."
         )
-    unlike = 0.0 if alike else UNLIKE
+    unlike = math.hypot(0.0 if alike else UNLIKE, of_layers)
     area, pixels, peak, gap = (
         read.area(groups).times(1.0, unlike),
-        read.area(groups, "area_pixels") if alike else UNKNOWN,
+        read.area(groups, "area_pixels").times(1.0, unlike) if alike else UNKNOWN,
         read.peak(groups).times(waves.full_contact, unlike),
         read.gap(groups) if alike else UNKNOWN,
     )
@@ -386,35 +384,6 @@ def _waves(surface: Rough, grid: Grid | None, body: Body, counter_body: Body) ->
     if grid is None:
         raise InputError("grid must be given for a spectrum, such as Grid((256, 256), (50e-9, 50e-9)), but is not.")
     return Waves.of_spectrum(grid, surface, body, counter_body), grid
-
-
-def _layer(body: Body, counter_body: Body) -> tuple[float, float]:
-    """E1/E2 and thickness (m) of the one layer of the bodies; 1 and inf without one."""
-    bodies = [one.bare if isinstance(one, Layered) else one for one in (body, counter_body)]
-    layered = [one for one in bodies if isinstance(one, Layered) and one.layers]
-    solve = f"Solve it: {in_words('{solve}')}."
-    plain = all(isinstance(_base(one), Elastic | Rigid) for one in bodies)
-    if not plain:
-        raise InputError(f"bodies of a prediction must be elastic half-spaces below their layers, but are not. {solve}")
-    if not layered:
-        return 1.0, math.inf
-    rigid = any(isinstance(one, Rigid) for one in bodies)
-    if len(layered) > 1 or not rigid or len(layered[0].layers) > 1:
-        raise InputError(
-            "bodies of a prediction must be half-spaces, or one layer on a half-space against a rigid "
-            f"surface, but have more layers or a soft counter body. {solve}"
-        )
-    layer, base = layered[0].layers[0], layered[0].base
-    top = layer.material
-    if not isinstance(layer.interface, Bonded) or not isinstance(top, Elastic) or not isinstance(base, Elastic):
-        raise InputError(f"layer of a prediction must be homogeneous, elastic and bonded, but is not. {solve}")
-    for material in (top, base):
-        if not LAYER_NU[0] <= material.poisson_ratio <= LAYER_NU[1]:
-            raise InputError(
-                f"Poisson's ratios of a layer and its base must be from {LAYER_NU[0]} to {LAYER_NU[1]} for a "
-                f"prediction, but one is {material.poisson_ratio:g}. {solve}"
-            )
-    return top.youngs_modulus / base.youngs_modulus, layer.thickness
 
 
 def _require_inside(groups: Groups) -> None:

@@ -136,6 +136,50 @@ def test_withheld_surfaces(points: int, size: float, solid: object, y: float) ->
     assert np.mean(within) > 0.85  # 19 of 20, of four correlated numbers of eight surfaces
 
 
+def several(*layers: tuple[float, float]) -> asp.Layered:
+    return asp.Layered(
+        [asp.Layer(asp.Elastic(ratio * E, NU), thickness=thickness * BETA) for ratio, thickness in layers], HALF_SPACE
+    )
+
+
+GRADED = asp.Layered(asp.solids.graded(asp.Elastic(3.0 * E, NU), HALF_SPACE, 0.4 * BETA, sublayers=8), HALF_SPACE)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "solid",
+    [
+        several((2.5, 0.08), (1.6, 0.25)),
+        several((0.5, 0.1), (0.8, 0.5)),
+        several((1.4, 0.1), (2.2, 0.1), (1.6, 0.3)),
+        GRADED,
+    ],
+    ids=["stiff", "soft", "three", "graded"],
+)
+@pytest.mark.parametrize("y", [0.006, 0.1])
+def test_several_layers_like_the_one_that_is_as_compliant(solid: asp.Layered, y: float) -> None:
+    grid = grid_of(144, 18.0)
+    p = y * asp.predict(ROUGH, solid, asp.MeanPressure(1e8), grid=grid).waves.full_contact
+    found = asp.predict(ROUGH, solid, asp.MeanPressure(p), grid=grid)
+    rows = np.array([solved(gaussian(grid, ROUGH, seed=seed), solid, p) for seed in range(9401, 9405)])
+    expected = (found.area_fraction, found.area_fraction_pixels, found.peak_pressure, found.mean_gap)
+    for one, mean in zip(expected, rows.mean(axis=0), strict=True):
+        assert abs(off(one, mean, 4)) < REACH
+    assert found.area_fraction.error < 0.08 * found.area_fraction.value
+
+
+def test_layers_alike_are_one_layer() -> None:
+    """Split, a layer is read as before, with the error of several."""
+    grid = grid_of(128, 20.0)
+    whole = asp.predict(ROUGH, layered(2.0, 0.3), load(0.1), grid=grid)
+    split = asp.predict(ROUGH, several((2.0, 0.1), (2.0, 0.2)), load(0.1), grid=grid)
+    assert split.waves.full_contact == pytest.approx(whole.waves.full_contact, rel=1e-9)
+    assert (split.groups.ratio, split.groups.thickness) == pytest.approx((2.0, 0.3), rel=1e-3)
+    assert split.area_fraction.value == pytest.approx(whole.area_fraction.value, rel=1e-3)
+    with refused(InputError, "layers of a prediction"):
+        asp.predict(ROUGH, several((3.0, 0.1), (0.5, 0.2)), load(0.1), grid=grid)
+
+
 def self_affine(hurst: float = 0.8) -> SelfAffine:
     return SelfAffine(
         amplitude=RmsHeight(RMS), hurst=hurst, shortest_wavelength=0.3 * BETA, rolloff_wavelength=4.0 * BETA
