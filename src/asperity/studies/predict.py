@@ -330,28 +330,18 @@ def predict(
     groups, pulled = _with_pull(base, pressure, pull, waves)
     _require_inside(groups)
     _require_gaussian(surface)
-    read, alike = predictor(), _exponential(waves, used)
+    alike = _exponential(waves, used)
     if pull is not None and not alike:
         raise InputError(
             "surface must have an exponential autocorrelation for a prediction with a pull, but has another. "
             f"Solve it: {in_words('{solve}')}."
         )
     unlike = math.hypot(0.0 if alike else UNLIKE, of_layers)
-    area, pixels, peak, gap = (
-        read.area(groups).times(1.0, unlike),
-        read.area(groups, "area_pixels").times(1.0, unlike) if alike else UNKNOWN,
-        read.peak(groups).times(waves.full_contact, unlike),
-        read.gap(groups) if alike else UNKNOWN,
-    )
-    if isinstance(surface, Surface):
-        skewness, kurtosis = _shape(surface)
-        area, pixels, peak, gap = (
-            of_shape(each, groups.y, skewness, kurtosis - 3.0, name)
-            for each, name in ((area, "area"), (pixels, "area_pixels"), (peak, "peak"), (gap, "gap"))
-        )
+    area, pixels, peak, gap = _elastic(groups, surface, alike, unlike)
+    peak = peak.times(waves.full_contact)
     elastic = peak
     if hardness is not None:
-        u = _hard(hardness, pressure, read.area(groups, "area_pixels").value, pull)
+        u = _hard(hardness, pressure, groups, pull)
         area, pixels, peak = capped(area, u, "area"), capped(pixels, u, "area_pixels"), peak.below(hardness)
         gap = gap if u <= CAPPED_GAP else UNKNOWN
     largest = peak.times(SQRT_J2, SQRT_J2_ERROR) if ratio == 1.0 and peak == elastic else UNKNOWN
@@ -482,7 +472,23 @@ def _yield_factor(largest: Expected, body: Body, counter_body: Body) -> Expected
     return Expected(factor, factor * largest.error / largest.value, factor * largest.scatter / largest.value)
 
 
-def _hard(hardness: float, pressure: float, pixels: float, pull: tuple[float, float] | None) -> float:
+def _elastic(groups: Groups, surface: Rough, alike: bool, unlike: float) -> tuple[Expected, ...]:
+    """Area, counted area, largest pressure over s and gap over the rms height of an elastic
+    contact, with the relative standard error ``unlike`` of other surfaces and several layers."""
+    read = predictor()
+    found = {
+        "area": read.area(groups).times(1.0, unlike),
+        "area_pixels": read.area(groups, "area_pixels").times(1.0, unlike) if alike else UNKNOWN,
+        "peak": read.peak(groups).times(1.0, unlike),
+        "gap": read.gap(groups) if alike else UNKNOWN,
+    }
+    if isinstance(surface, Surface):
+        skewness, kurtosis = _shape(surface)
+        found = {name: of_shape(one, groups.y, skewness, kurtosis - 3.0, name) for name, one in found.items()}
+    return tuple(found.values())
+
+
+def _hard(hardness: float, pressure: float, groups: Groups, pull: tuple[float, float] | None) -> float:
     """Mean real pressure of the elastic contact over the ``hardness``, inside of what was tried."""
     solve = f"Solve it: {in_words('{solve}')}."
     require.positive(hardness, "hardness of a prediction (Pa)")
@@ -493,7 +499,7 @@ def _hard(hardness: float, pressure: float, pixels: float, pull: tuple[float, fl
             f"hardness of a prediction must be at least {1.0 / MOST_CAPPED:g} times the mean pressure, but is "
             f"{hardness / pressure:.3g} times it. {solve}"
         )
-    u = pressure / (hardness * pixels)
+    u = pressure / (hardness * predictor().area(groups, "area_pixels").value)
     if u > CAPPED_RANGE:
         raise InputError(
             f"mean real pressure of the elastic contact / hardness must be at most {CAPPED_RANGE:g} for a prediction, "
