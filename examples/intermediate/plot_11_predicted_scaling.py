@@ -3,8 +3,8 @@ Scaling laws of coated surfaces, predicted
 ==========================================
 
 Area, largest pressure and menisci of a rough coated surface in the groups without dimension of Peng
-(2001, figs 3.14 to 3.20), from the table of solved contacts: some hundred contacts in a few seconds. His
-own solutions are marked.
+(2001, figs 3.14 to 3.20), from the table of solved contacts: some hundred of them in a few seconds.
+His own solutions are marked.
 """
 
 import matplotlib.pyplot as plt
@@ -33,7 +33,7 @@ def predicted(X, ratio, thickness):
 
 # %%
 # A stiffer coating carries the load on less area with more pressure. The band is where one surface
-# of 40 β lies in 19 of 20 cases; a coating thinner than a tenth of β is felt by the short waves only.
+# of 40 β lies in 19 of 20 cases; only short waves feel a coating thinner than a tenth of β.
 figure, axes = plt.subplots(2, 2, figsize=(9, 7), layout="constrained")
 published = {0.5: ([2e-3], [2.29e-3]), 1.0: ([2e-3, 4e-3], [1.215e-3, 2.34e-3]), 2.0: ([2e-3], [6.31e-4])}
 areas = {}

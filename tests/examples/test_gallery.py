@@ -540,7 +540,8 @@ def test_predicted_scaling():
         found = np.exp(np.interp(np.log(loads), np.log(left.loads), np.log(left.areas[ratio])))
         assert found == pytest.approx(areas, rel=0.04)
         slopes = np.diff(np.log(left.areas[ratio])) / np.diff(np.log(left.loads))
-        assert np.all((slopes > 0.8) & (slopes < 1.0))
+        light = left.areas[ratio][1:] < 0.1  # far from full contact the area goes as X^0.9
+        assert slopes[light] == pytest.approx(0.9, abs=0.06)
 
 
 def test_pin_on_a_coated_disk():
