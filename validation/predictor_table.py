@@ -1,6 +1,6 @@
 """Solves the contacts behind ``asperity.predict`` and writes its tables.
 
-    python validation/predictor_table.py [--seeds 16] [--only master,layer,stress,withheld]
+    python validation/predictor_table.py [--seeds 16] [--only master,layer,several,capped]
 
 Surfaces have an exponential autocorrelation whose 10 % length β is the unit of length, and press on
 a half-space or on one layer. Everything is kept by dimensionless groups, so the numbers of metres
@@ -23,9 +23,9 @@ from typing import Any
 import numpy as np
 
 import asperity as asp
-from asperity.generate import ExponentialAutocorrelation, RmsHeight, SelfAffine, gaussian
+from asperity.generate import ExponentialAutocorrelation, RmsHeight, SelfAffine, gaussian, translated
 from asperity.studies.predict import Waves
-from asperity.theories.rough.predictor import HEIGHTS, MIDDLE, PERIMETER, predictor
+from asperity.theories.rough.predictor import HEIGHTS, MIDDLE, PERIMETER, Groups, predictor
 
 DATA = Path(asp.__file__).parent / "data" / "predictor"
 BETA, RMS, E, NU = 1e-6, 2e-9, 100e9, 0.3
@@ -48,7 +48,7 @@ THICKNESSES = (0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 1.0, 2.0, 5.0)
 LAYER_SEEDS = 4
 
 FIRST_SEED = 4900
-KEEP = asp.Keep(stiffness=False)
+KEEP, HARD = asp.Keep(stiffness=False), asp.plasticity.HardWall()
 
 
 def body(ratio: float = 1.0, thickness: float = 1.0, nu: tuple[float, float] = (NU, NU)) -> Any:
@@ -70,10 +70,12 @@ def exponential(n: int, size: float, seed: int) -> asp.Surface:
     return gaussian(grid_of(n, size), ExponentialAutocorrelation(RMS, BETA), seed=seed)
 
 
-def solved(surface: asp.Surface, solid: Any, pressure: float, rms: float, s: float) -> dict[str, float]:
+def solved(
+    surface: asp.Surface, solid: Any, pressure: float, rms: float, s: float, law: Any = HARD
+) -> dict[str, float]:
     """What is kept of one contact: areas as shares, the largest pressure over ``s``, gap
     and shares of small gaps over ``rms``."""
-    result = asp.solve(asp.ContactProblem(surface, solid), asp.MeanPressure(pressure), keep=KEEP)
+    result = asp.solve(asp.ContactProblem(surface, solid, law=law), asp.MeanPressure(pressure), keep=KEEP)
     contact = result.contact
     edges = sum(float((contact != np.roll(contact, 1, axis)).mean()) for axis in (0, 1))
     row = {
@@ -167,6 +169,27 @@ def withheld() -> Iterator[dict[str, Any]]:
             yield from beside(label, grid_of(256, 30.0), model, body())
 
 
+SEVERAL = (
+    *(((2.0, 0.1), (1.5, 0.3)), ((4.0, 0.05), (2.0, 0.2)), ((0.4, 0.15), (0.7, 0.4)), ((5.0, 0.1), (3.0, 0.15))),
+    *(((1.5, 0.05), (2.5, 0.1), (1.3, 0.4)), ((0.6, 0.1), (3.0, 0.1), (0.8, 0.2))),
+    *(((2.0, 0.15), (0.4, 0.15), (3.0, 0.3)), ((3.0, 0.1), (0.5, 0.2)), ((0.5, 0.1), (2.0, 0.3))),
+    ((0.3, 0.05), (4.0, 0.2)),
+)
+"""E1/E2 and thickness over β of the layers of bodies with several, from the top."""
+
+
+def several() -> Iterator[dict[str, Any]]:
+    """Bodies of two and three layers, solved and predicted by the one layer nearest to theirs;
+    those that are refused are left out."""
+    for layers in SEVERAL:
+        made = [asp.Layer(asp.Elastic(ratio * E, NU), thickness=thickness * BETA) for ratio, thickness in layers]
+        label = "layers " + ", ".join(f"{ratio:g} E2 of {thickness:g} β" for ratio, thickness in layers)
+        for n, size in ((128, 20.0), (160, 16.0)):
+            with suppress(asp.InputError):
+                rough = ExponentialAutocorrelation(RMS, BETA)
+                yield from beside(label, grid_of(n, size), rough, asp.Layered(made, base=asp.Elastic(E, NU)))
+
+
 def beside(label: str, grid: asp.Grid, spectrum: Any, solid: Any) -> Iterator[dict[str, Any]]:
     """Means of solved contacts, and what is predicted with its error."""
     waves = Waves.of_spectrum(grid, spectrum, solid)
@@ -208,6 +231,66 @@ def stressed(seeds: int) -> Iterator[dict[str, float]]:
             yield {"points": n, "size": size, "pixel": size / n, "y": y} | averaged(rows)
 
 
+CAPPED = (
+    *((64, 20.0, 1.0, 1.0, True), (128, 20.0, 1.0, 1.0, True), (256, 20.0, 1.0, 1.0, True)),
+    *((128, 16.0, 3.0, 0.15, False), (96, 14.0, 0.4, 0.2, False), (160, 24.0, 1.0, 1.0, False)),
+)
+"""Points, side over β, E1/E2 and thickness over β, and whether the factor of a hardness is fitted
+to them."""
+
+HARDNESSES = (0.3, 0.5, 0.8, 1.2, 1.8, 2.7, 4.0)
+
+
+def capped() -> Iterator[dict[str, Any]]:
+    """Elastic-perfectly plastic contacts on four surfaces each."""
+    for n, size, ratio, thickness, fitted in CAPPED:
+        solid = body(ratio, thickness)
+        s = Waves.of_spectrum(grid_of(n, size), ExponentialAutocorrelation(RMS, BETA), solid).full_contact
+        first = FIRST_SEED if fitted else WITHHELD_SEEDS[0]
+        surfaces = [exponential(n, size, first + number) for number in range(4)]
+        for y in (0.01, 0.03, 0.1, 0.3):
+            elastic = averaged([solved(one, solid, y * s, RMS, s) for one in surfaces])
+            for hardness in HARDNESSES:
+                if y > 0.8 * hardness:
+                    continue
+                law = asp.Hardness(hardness * s)
+                rows = [solved(one, solid, y * s, RMS, s, law) for one in surfaces]
+                row = {"fitted": fitted, "points": n, "size": size, "ratio": ratio, "thickness": thickness}
+                row |= {"y": y, "hardness": hardness, "u": y / (hardness * elastic["area_pixels"])}
+                found = averaged(rows)
+                for key in ("area_pixels", "area", "gap"):
+                    row |= {key: found[key], f"{key}_elastic": elastic[key]}
+                yield row
+
+
+SHAPES = (
+    *((0.0, 3.0), (0.3, 3.2), (-0.3, 3.2), (0.5, 3.5), (-0.5, 3.5), (0.7, 3.9), (-0.7, 3.9), (1.0, 4.6), (-1.0, 4.6)),
+    *((0.0, 2.3), (0.0, 2.7), (0.0, 3.5), (0.0, 4.0), (0.0, 5.0)),
+)
+"""Skewness and kurtosis of surfaces that are not Gaussian."""
+
+
+def shaped() -> Iterator[dict[str, Any]]:
+    """Surfaces of given skewness and kurtosis, four each, beside what Gaussian ones would do."""
+    grid = grid_of(256, 20.0)
+    for skewness, kurtosis in SHAPES:
+        shape = {"skewness": skewness, "kurtosis": kurtosis}
+        surfaces = [
+            translated(grid, ExponentialAutocorrelation(RMS, BETA), seed=n, **shape) for n in WITHHELD_SEEDS[:4]
+        ]
+        surfaces = [asp.Surface(one.heights - one.heights.mean(), *grid.spacing, periodic=True) for one in surfaces]
+        for y in (0.005, 0.03, 0.2):
+            rows = []
+            for one in surfaces:
+                waves = Waves.of_surface(one, body())
+                s, x = waves.full_contact, waves.modulus * waves.rms / waves.length
+                groups = Groups(y, y * s / x, waves.nayak, 20.0 * BETA / waves.length, grid.n_points)
+                found = solved(one, body(), y * s, waves.rms, s)
+                row = {key: found[key] / getattr(predictor(), key)(groups).value - 1.0 for key in ("area", "peak")}
+                rows.append(row | {"gap": found["gap"] - predictor().gap(groups).value})
+            yield shape | {"y": y} | averaged(rows)
+
+
 def write(name: str, rows: Iterable[dict[str, Any]], about: str) -> None:
     """Write ``rows`` as they come, with what they are in the first lines."""
     start = perf_counter()
@@ -216,7 +299,10 @@ def write(name: str, rows: Iterable[dict[str, Any]], about: str) -> None:
     folder = DATA if name in ("master", "layer") else Path(__file__).parent / "predictor"
     folder.mkdir(exist_ok=True)
     with (folder / f"{name}.csv").open("w", encoding="utf-8", newline="\n") as file:
-        file.write(f"# {about}\n# made by validation/predictor_table.py at commit {commit}; seeds from {FIRST_SEED}\n")
+        file.write(
+            f"# {about}\n# made by validation/predictor_table.py at commit {commit}; seeds from {FIRST_SEED}, "
+            f"withheld ones from {WITHHELD_SEEDS.start}\n"
+        )
         writer = csv.DictWriter(file, list(found[0]), lineterminator="\n")
         writer.writeheader()
         for row in found:
@@ -228,7 +314,7 @@ def main() -> None:
     """Write the tables that are asked for."""
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("--seeds", type=int, default=16)
-    asked.add_argument("--only", default="master,layer,stress,withheld")
+    asked.add_argument("--only", default="master,layer,stress,withheld,several,capped,shaped")
     given = asked.parse_args()
     makers = {
         "master": (
@@ -241,6 +327,9 @@ def main() -> None:
             f"y = {LAYER_PRESSURES}, {LAYER_SEEDS} surfaces",
         ),
         "withheld": (withheld, "contacts that the tables have not seen, solved and predicted"),
+        "several": (several, "contacts with two and three layers, solved and predicted by the one nearest layer"),
+        "capped": (capped, "contacts under a hardness over the rms pressure of full contact, beside the elastic ones"),
+        "shaped": (shaped, "relative deviation of solved from predicted means of surfaces that are not Gaussian"),
         "stress": (lambda: stressed(given.seeds), "largest sqrt(J2) over the largest pressure on a half-space, nu 0.3"),
     }
     for name in given.only.split(","):

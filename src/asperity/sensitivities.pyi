@@ -3,10 +3,11 @@ from .physics.sensitivities.outputs import EdgeArea, PressureAt, PressureNorm, S
 from .physics.sensitivities.sensitivities import sensitivities
 from .physics.sensitivities.subsurface import StressNorm
 from .physics.sensitivities.uncertainty import HeightNoise, Sampled, Uncertainty, uncertainty
-from .physics.sensitivities.yielding import YieldLoad, yield_load
+from .physics.sensitivities.yielding import FirstYield, YieldLoad, yield_load
 
 __all__ = [
     "EdgeArea",
+    "FirstYield",
     "HeightNoise",
     "PressureAt",
     "PressureNorm",

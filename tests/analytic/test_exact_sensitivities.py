@@ -18,11 +18,13 @@ import asperity as asp
 from asperity.contact.result import ContactResult
 from asperity.sensitivities import (
     EdgeArea,
+    FirstYield,
     PressureAt,
     PressureNorm,
     Sensitivities,
     StressNorm,
     sensitivities,
+    uncertainty,
     yield_load,
 )
 from asperity.solvers import ActiveSet
@@ -209,6 +211,22 @@ def test_load_at_yield_of_a_sphere() -> None:
     assert R_share == pytest.approx(2.0, rel=0.05)
     # what scales stresses and strength scales the load
     assert found.relative["strength"] + found.relative["body.youngs_modulus"] == pytest.approx(1.0, rel=1e-3)
+
+    # so the load factor is lognormal, of this variance
+    scatter = {"strength": 0.1, "body.youngs_modulus": 0.05, "heights": 0.02, "force": 0.03}
+    of = FirstYield(StressNorm(0, tuple(np.linspace(0.3, 0.7, 9) * a), m=512.0), Y)
+    bar = uncertainty(result, of, scatter, samples=6, seed=2)
+    assert bar.value == pytest.approx(2.0, rel=0.01)
+    assert bar.relative == pytest.approx(math.hypot(0.3, 0.1, 0.04, 0.03), rel=0.03)
+    assert bar.parts == pytest.approx(
+        {"strength": 0.3, "body.youngs_modulus": 0.1, "heights": 0.04, "force": 0.03}, rel=0.05
+    )
+    assert abs(bar.sensitivities.euler_defect) < 1e-3
+    assert bar.sampled is not None
+    # the heights alone move where the largest stress lies between planes
+    assert bar.sampled.values == pytest.approx(bar.sampled.predicted, rel=0.02)
+    test = bar.sensitivities.taylor("strength", (0.02, 0.01))
+    assert test.differences[1] == pytest.approx(0.01 * 3.0 * bar.value, rel=0.05)
 
 
 def test_area_by_its_edge_at_one_load() -> None:

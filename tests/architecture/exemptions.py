@@ -26,6 +26,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "StressPlanes.__init__": (
             "independent keyword-only choices of the user, and the stress that a result knows beside its tractions"
         ),
+        "predict": "independent keyword-only choices of the user, each with a default",
         "uncertainty": "independent keyword-only choices of the user, each with a default",
         "read": "independent keyword-only choices of the user, each with a default",
         "filter_waves": "independent keyword-only choices of the user, each with a default",

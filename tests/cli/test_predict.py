@@ -36,6 +36,16 @@ def test_json_holds_what_python_finds(run: Runner) -> None:
     assert "yield_factor" in found["values"]
 
 
+def test_a_hardness(run: Runner) -> None:
+    result = run("predict", *NUMBERS, *ASKED, "--hardness", "2GPa", "--json")
+    assert result.exit_code == 0, result.stderr
+    found = json.loads(result.stdout)["values"]
+    expected = asp.predict(ROUGH, SOLID, asp.MeanPressure(20e6), grid=GRID, hardness=2e9)
+    assert found["area_fraction_pixels"]["value"] == pytest.approx(expected.area_fraction_pixels.value)
+    assert found["peak_pressure"]["value"] == 2e9
+    assert "yield_factor" not in found
+
+
 def test_the_table_and_the_file(run: Runner, tmp_path: Path) -> None:
     file = tmp_path / "found.csv"
     result = run("predict", *NUMBERS, *ASKED, "--csv", file)

@@ -533,6 +533,17 @@ def test_fretting_of_a_sphere():
     assert max(ring.error, scar.error) < 0.05
 
 
+def test_predicted_scaling():
+    """Counted areas of Peng (2001, table 3.1) within 4 %, and the laws as local slopes."""
+    left = run("intermediate/plot_11_predicted_scaling")
+    for ratio, (loads, areas) in left.published.items():
+        found = np.exp(np.interp(np.log(loads), np.log(left.loads), np.log(left.areas[ratio])))
+        assert found == pytest.approx(areas, rel=0.04)
+        slopes = np.diff(np.log(left.areas[ratio])) / np.diff(np.log(left.loads))
+        light = left.areas[ratio][1:] < 0.1  # far from full contact the area goes as X^0.9
+        assert slopes[light] == pytest.approx(0.9, abs=0.06)
+
+
 def test_pin_on_a_coated_disk():
     """Volumes by the forces; the track wears alike along it, and lasts longer than at its first
     width."""

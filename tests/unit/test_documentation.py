@@ -354,11 +354,14 @@ def test_the_example_of_sensitivities(capsys):
 
 def test_the_example_of_uncertainty(capsys):
     page, names = ROOT / "docs/how-to/uncertainty.md", {}
-    (code,) = blocks(page, "python")
+    code, of_yield = blocks(page, "python")
     exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
     low, high = names["found"].interval
     assert low < names["found"].value < high
     assert names["found"].sampled.gain > 5.0
+    exec(compile(of_yield, page.name, "exec"), names)  # noqa: S102
+    low, high = names["factor"].interval
+    assert 0.0 < low < names["factor"].value < high
 
 
 def test_the_examples_of_wear(capsys):

@@ -46,6 +46,7 @@ def _options() -> list[Option]:
         make("--pixel", ("rough", "pixel"), "size of a pixel; --size is that of the surface", SURFACE, "LENGTH"),
         make("--pull", ("pull", "tension"), "tension where the gap is small; 2γ/h of a liquid film", PULL, "PRESSURE"),
         make("--reach", ("pull", "reach"), "largest gap across which it pulls; h of a film", PULL, "LENGTH"),
+        make("--hardness", ("law", "hardness"), "limit of the pressure, such as 6GPa", LOAD, "PRESSURE"),
         make("--csv", ("output", "csv"), "write the numbers as a CSV file, in SI", OUTPUT, FILE),
         *reading_options(),
     ]
@@ -78,7 +79,7 @@ def predict(
     if body is None:
         raise InputError("--body must be given, such as --body DLC; the command `asperity materials` lists the names.")
     counter = given.get("counter_body")
-    surface, grid = _surface(file, given, level)
+    surface, grid, hardness = *_surface(file, given, level), given.get("law", "hardness")
     found = predicted(
         surface,
         body_of_text(body, "--body"),
@@ -86,6 +87,7 @@ def predict(
         grid=grid,
         counter_body=Rigid() if counter is None else body_of_text(counter, "--counter"),
         pull=_pull(given),
+        hardness=None if hardness is None else parse(hardness, "pressure", "--hardness"),
     )
     if csv is not None:
         write_table(_rows(found), Path(csv), overwrite=force)

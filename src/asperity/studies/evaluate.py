@@ -38,7 +38,7 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
         ``table`` of the base problem, ``folder`` at which its relative paths start, ``quantities``,
         and ``cases`` with ``key`` and ``edits``, and the ``version`` of asperity: plain values, so
         that it can be sent to another machine. With ``slopes``, paths of scalars, records hold the
-        derivatives to these too, where there are any.
+        derivatives of the quantities ``sloped`` to these too, where there are any.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
                 record: Record = {
                     "key": case["key"],
                     "values": {name: float(values.get(name, np.nan)) for name in quantities}
-                    | slopes(outcome, quantities, task.get("slopes", ())),
+                    | slopes(outcome, task.get("sloped", ()), task.get("slopes", ())),
                     "work": {name: getattr(certificate, name) for name in CHECKS},
                     "citations": list(outcome.citation_keys),
                     "findings": [

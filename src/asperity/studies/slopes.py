@@ -36,9 +36,9 @@ def slope_name(quantity: str, path: str) -> str:
     return f"{quantity} by {path}"
 
 
-def differentiable(quantities: Iterable[str]) -> bool:
-    """Whether one of the ``quantities`` may have derivatives."""
-    return _ROLE in ROLES and any(name in QUANTITIES for name in quantities)
+def differentiable(quantities: Iterable[str]) -> tuple[str, ...]:
+    """Those of the ``quantities`` that may have derivatives."""
+    return tuple(name for name in quantities if name in QUANTITIES) if _ROLE in ROLES else ()
 
 
 class Parameter(NamedTuple):

@@ -14,10 +14,11 @@ import asperity as asp
 from asperity.cli.main import app
 from asperity.core.errors import InputError
 from asperity.physics.sensitivities.part_uncertainty import QUANTITIES
+from asperity.physics.sensitivities.work import yielding_norms
 from asperity.run.build import build
 from asperity.run.document import checked, dumps, loads
 from asperity.run.stored import load_outcome, save_outcome
-from asperity.sensitivities import HeightNoise, PressureNorm, uncertainty
+from asperity.sensitivities import FirstYield, HeightNoise, PressureNorm, uncertainty
 from asperity.studies.collect import dataset
 from asperity.studies.run import carry_out
 
@@ -97,10 +98,39 @@ def test_a_hardness_has_its_scatter() -> None:
     assert "hardness" in {str(name) for name in outcome.found["uncertainty"].values["uncertainty_source"]}
 
 
+def test_first_yield_has_an_error_bar_by_layer() -> None:
+    """Of the layer that yields first, that of Python; of all that are near to it in a list."""
+    film = {"youngs_modulus": "300 GPa", "poisson_ratio": 0.2, "yield_stress": "6 GPa", "name": "film"}
+    base = {"youngs_modulus": "200 GPa", "poisson_ratio": 0.3, "yield_stress": "4 GPa", "name": "base"}
+    body = {"layers": [{**film, "thickness": "1 um"}], "base": base}
+    asked = {"of": ["yield", "approach"], "moduli": 0.05, "load": 0.02, "strengths": 0.1}
+    outcome = asp.run(ROUGH | {"body": body, "uncertainty": asked})
+    values = outcome.found["uncertainty"].values
+    layers, factors = values["uncertainty_yield_layer"], values["uncertainty_yield_factor"]
+    assert list(factors) == sorted(factors)
+    assert factors[0] == values["uncertainty_median_yield"]
+    assert set(map(str, layers)) == {"layer 1 (film)", "the base (base)"}
+    scatter = {f"body.{part}.youngs_modulus": 0.05 for part in ("layers[0]", "base")}
+    bars = [
+        uncertainty(outcome.result, FirstYield(norm), {**scatter, "force": 0.02, "strength": 0.1})
+        for _, norm in yielding_norms(outcome.result)
+    ]
+    first = min(bars, key=lambda bar: bar.value)
+    assert values["uncertainty_yield"] == pytest.approx(first.relative, rel=1e-6)
+    assert sorted(bar.value for bar in bars) == pytest.approx(factors, rel=1e-6)
+    shares = dict(zip(values["uncertainty_source"], values["uncertainty_share_approach"], strict=True))
+    assert shares["strength"] == 0.0
+    tables = next(words for part, words in outcome.sections if part.name == "uncertainty").tables
+    assert len(tables) == 3
+    assert [figure.name for figure in outcome.figures["uncertainty"] if figure.picture]
+
+
 REFUSED = {
     "nothing unsure": ({"uncertainty": {}}, "uncertainty"),
     "too much": ({"uncertainty": {"moduli": 3.0}}, "uncertainty.moduli"),
-    "yield": ({"uncertainty": {"of": ["yield"], "moduli": 0.1}}, "uncertainty.of[1]"),
+    "yield": ({"uncertainty": {"of": ["yield"], "moduli": 0.1}}, "strength of a layer or base"),
+    "strength of nothing": ({"uncertainty": {"strengths": 0.1, "moduli": 0.1}}, "uncertainty.strengths"),
+    "strength alone": ({"uncertainty": {"strengths": 0.1, "of": ["yield", "approach"]}}, "uncertainty"),
     "adhesion": (
         {"adhesion": {"work": "50 mJ/m^2", "range": "1 nm"}},
         "contact of sensitivities",

@@ -19,6 +19,7 @@ from asperity.theories.rough.predictor import HEIGHTS, PERIMETER, Expected, pred
 E, NU, RMS, BETA = 100e9, 0.3, 1e-9, 0.5e-6
 ROUGH = ExponentialAutocorrelation(RMS, BETA)
 HALF_SPACE = asp.Elastic(E, NU)
+HARD = asp.plasticity.HardWall()
 REACH = 3.0
 """Standard errors within which a mean of a few surfaces must be predicted."""
 
@@ -96,9 +97,12 @@ def test_pressure_of_full_contact_and_factors_of_a_layer(row: Row) -> None:
     assert factor == pytest.approx(row["area_corrected_factor"], abs=REACH * sd)
 
 
-def solved(surface: asp.Surface, solid: object, pressure: float) -> tuple[float, float, float, float]:
+def solved(
+    surface: asp.Surface, solid: object, pressure: float, law: object = HARD
+) -> tuple[float, float, float, float]:
     """Area freed of the pixels by its perimeter, counted area, peak (Pa) and gap (m)."""
-    result = asp.solve(asp.ContactProblem(surface, solid), asp.MeanPressure(pressure), keep=asp.Keep(stiffness=False))
+    problem = asp.ContactProblem(surface, solid, law=law)
+    result = asp.solve(problem, asp.MeanPressure(pressure), keep=asp.Keep(stiffness=False))
     contact = result.contact
     edges = sum(float((contact != np.roll(contact, 1, axis)).mean()) for axis in (0, 1))
     area = result.area_fraction - PERIMETER * edges
@@ -130,6 +134,50 @@ def test_withheld_surfaces(points: int, size: float, solid: object, y: float) ->
     ] == []
     within = [(one.band[0] <= values) & (values <= one.band[1]) for one, values in zip(expected, rows.T, strict=True)]
     assert np.mean(within) > 0.85  # 19 of 20, of four correlated numbers of eight surfaces
+
+
+def several(*layers: tuple[float, float]) -> asp.Layered:
+    return asp.Layered(
+        [asp.Layer(asp.Elastic(ratio * E, NU), thickness=thickness * BETA) for ratio, thickness in layers], HALF_SPACE
+    )
+
+
+GRADED = asp.Layered(asp.solids.graded(asp.Elastic(3.0 * E, NU), HALF_SPACE, 0.4 * BETA, sublayers=8), HALF_SPACE)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "solid",
+    [
+        several((2.5, 0.08), (1.6, 0.25)),
+        several((0.5, 0.1), (0.8, 0.5)),
+        several((1.4, 0.1), (2.2, 0.1), (1.6, 0.3)),
+        GRADED,
+    ],
+    ids=["stiff", "soft", "three", "graded"],
+)
+@pytest.mark.parametrize("y", [0.006, 0.1])
+def test_several_layers_like_the_one_that_is_as_compliant(solid: asp.Layered, y: float) -> None:
+    grid = grid_of(144, 18.0)
+    p = y * asp.predict(ROUGH, solid, asp.MeanPressure(1e8), grid=grid).waves.full_contact
+    found = asp.predict(ROUGH, solid, asp.MeanPressure(p), grid=grid)
+    rows = np.array([solved(gaussian(grid, ROUGH, seed=seed), solid, p) for seed in range(9401, 9405)])
+    expected = (found.area_fraction, found.area_fraction_pixels, found.peak_pressure, found.mean_gap)
+    for one, mean in zip(expected, rows.mean(axis=0), strict=True):
+        assert abs(off(one, mean, 4)) < REACH
+    assert found.area_fraction.error < 0.08 * found.area_fraction.value
+
+
+def test_layers_alike_are_one_layer() -> None:
+    """Split, a layer is read as before, with the error of several."""
+    grid = grid_of(128, 20.0)
+    whole = asp.predict(ROUGH, layered(2.0, 0.3), load(0.1), grid=grid)
+    split = asp.predict(ROUGH, several((2.0, 0.1), (2.0, 0.2)), load(0.1), grid=grid)
+    assert split.waves.full_contact == pytest.approx(whole.waves.full_contact, rel=1e-9)
+    assert (split.groups.ratio, split.groups.thickness) == pytest.approx((2.0, 0.3), rel=1e-3)
+    assert split.area_fraction.value == pytest.approx(whole.area_fraction.value, rel=1e-3)
+    with refused(InputError, "layers of a prediction"):
+        asp.predict(ROUGH, several((3.0, 0.1), (0.5, 0.2)), load(0.1), grid=grid)
 
 
 def self_affine(hurst: float = 0.8) -> SelfAffine:
@@ -276,6 +324,67 @@ def test_self_affine_surfaces(hurst: float, y: float) -> None:
     rows = np.array([solved(gaussian(grid, spectrum, seed=seed), HALF_SPACE, p) for seed in range(9101, 9105)])
     assert abs(off(found.area_fraction, rows[:, 0].mean(), 4)) < 2.0
     assert abs(off(found.peak_pressure, rows[:, 2].mean(), 4)) < 2.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("points", "size", "solid"), [(112, 18.0, HALF_SPACE), (96, 12.0, layered(2.0, 0.2))])
+@pytest.mark.parametrize("y", [0.02, 0.2])
+@pytest.mark.parametrize("hardness", [0.35, 0.7, 1.5, 3.0])
+def test_contacts_under_a_hardness(points: int, size: float, solid: object, y: float, hardness: float) -> None:
+    """Means of solved contacts that no fit has seen, within the stated errors."""
+    grid = grid_of(points, size)
+    s = asp.predict(ROUGH, solid, asp.MeanPressure(1e8), grid=grid).waves.full_contact
+    p, H = y * s, hardness * s
+    found = asp.predict(ROUGH, solid, asp.MeanPressure(p), grid=grid, hardness=H)
+    surfaces = [gaussian(grid, ROUGH, seed=seed) for seed in range(9201, 9205)]
+    rows = np.array([solved(one, solid, p, asp.Hardness(H)) for one in surfaces])
+    assert abs(off(found.area_fraction, rows[:, 0].mean(), 4)) < REACH
+    assert abs(off(found.area_fraction_pixels, rows[:, 1].mean(), 4)) < REACH
+    assert np.all(rows[:, 2] <= found.peak_pressure.band[1] * (1.0 + 1e-9))
+    if math.isfinite(found.mean_gap.value):
+        assert found.mean_gap.value == pytest.approx(rows[:, 3].mean(), abs=0.1 * RMS)
+
+
+def test_limits_of_a_hardness() -> None:
+    """A high one changes nothing; under a low one the area is the load over the hardness."""
+    grid, p = grid_of(256, 20.0), 20e6
+    elastic = asp.predict(ROUGH, HALF_SPACE, asp.MeanPressure(p), grid=grid)
+    high = asp.predict(ROUGH, HALF_SPACE, asp.MeanPressure(p), grid=grid, hardness=1e12)
+    assert high.area_fraction_pixels.value == pytest.approx(elastic.area_fraction_pixels.value, rel=1e-3)
+    assert high.peak_pressure == elastic.peak_pressure
+    assert high.yield_factor == elastic.yield_factor or math.isnan(high.yield_factor.value)
+    H = p / elastic.area_fraction_pixels.value / 2.4
+    low = asp.predict(ROUGH, HALF_SPACE, asp.MeanPressure(p), grid=grid, hardness=H)
+    assert 1.0 < low.area_fraction_pixels.value / (p / H) < 1.1
+    assert (low.peak_pressure.value, low.peak_pressure.band) == (H, (H, H))
+    assert math.isnan(low.mean_gap.value)
+    assert math.isnan(low.max_sqrtJ2.value)
+    with refused(InputError, "mean real pressure of the elastic contact / hardness"):
+        asp.predict(ROUGH, HALF_SPACE, asp.MeanPressure(p), grid=grid, hardness=0.9 * H)
+    with refused(InputError, "hardness of a prediction"):
+        asp.predict(ROUGH, HALF_SPACE, asp.MeanPressure(p), grid=grid, hardness=1.1 * p)
+    with refused(InputError, "pull of a prediction"):
+        asp.predict(ROUGH, HALF_SPACE, asp.MeanPressure(p), grid=grid, hardness=H, pull=(1e7, RMS))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("skewness", "kurtosis"), [(0.4, 3.3), (-0.4, 3.3), (0.0, 3.6), (0.2, 3.1), (-0.5, 3.4)])
+@pytest.mark.parametrize("y", [0.008, 0.1])
+def test_surfaces_that_are_not_gaussian_lie_within_the_wider_bands(skewness: float, kurtosis: float, y: float) -> None:
+    grid = grid_of(160, 16.0)
+    for seed in (9301, 9302):
+        made = asp.generate.translated(grid, ROUGH, seed=seed, skewness=skewness, kurtosis=kurtosis)
+        surface = asp.Surface(made.heights - made.heights.mean(), *grid.spacing, periodic=True)
+        p = y * asp.predict(ROUGH, HALF_SPACE, asp.MeanPressure(1e8), grid=grid).waves.full_contact
+        found = asp.predict(surface, HALF_SPACE, asp.MeanPressure(p))
+        area, pixels, peak, gap = solved(surface, HALF_SPACE, p)
+        for one, value in (
+            (found.area_fraction, area),
+            (found.area_fraction_pixels, pixels),
+            (found.peak_pressure, peak),
+            (found.mean_gap, gap),
+        ):
+            assert math.isnan(one.value) or one.band[0] <= value <= one.band[1]
 
 
 def test_heights_far_from_gaussian_are_refused() -> None:

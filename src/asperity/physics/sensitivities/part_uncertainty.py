@@ -13,11 +13,11 @@ from ...core.values import Choice, NonNegativeLength, Number, Several, StepOfPat
 from ...parts.part import Part
 from .part import OUTPUTS
 
-ASKED = {name: item for name, item in OUTPUTS.items() if name != "yield"}
+ASKED = OUTPUTS | {"yield": ("1", "load factor of first yield")}
 """Numbers that have error bars, with unit and words."""
 
 SCATTERS = ("moduli", "poisson_ratios", "thicknesses", "hardness", "load", "height_scale")
-"""Keys of relative scatters."""
+"""Keys of relative scatters that all numbers have."""
 
 Outputs = Annotated[tuple[str, ...], Several(Choice({name: name for name in ASKED}))]
 Share = Annotated[float, Number(least=0.0, most=1.0)]
@@ -29,6 +29,7 @@ class UncertaintySettings(Settings):
     """Error bars of numbers of the contact from relative standard deviations: of each Young's
     modulus (``moduli``), Poisson's ratio, thickness, of hardness, load and the scale of heights,
     all independent; and from ``noise`` of the heights, white or correlated over ``noise_length``.
+    The load at first yield over the load (``yield``) has also the scatter of the ``strengths``.
 
     By the sensitivities; with ``samples`` also by solves with drawn parameters, which show what is
     not linear.
@@ -39,6 +40,7 @@ class UncertaintySettings(Settings):
     poisson_ratios: Share = setting(0.0, option="--scatter-poisson", help="Of each Poisson's ratio: 0.05")
     thicknesses: Share = setting(0.0, option="--scatter-thickness", help="Of each thickness: 0.1")
     hardness: Share = setting(0.0, option="--scatter-hardness", help="Of the hardness: 0.1")
+    strengths: Share = setting(0.0, option="--scatter-strength", help="Of the strength of the layer that yields: 0.1")
     load: Share = setting(0.0, option="--scatter-load", help="Of the load: 0.02")
     height_scale: Share = setting(0.0, option="--scatter-heights", help="Of the calibration of heights: 0.01")
     noise: NonNegativeLength = setting("0 nm", option="--height-noise", help="Rms of the noise of heights: 0.3nm")
@@ -53,7 +55,10 @@ class UncertaintySettings(Settings):
 
     @model_validator(mode="after")
     def _some(self) -> UncertaintySettings:
-        if not self.noise and not any(getattr(self, key) for key in SCATTERS):
+        if self.strengths and "yield" not in self.of:
+            raise InputError(".strengths must be left out unless {uncertainty.of=yield}, but is given.")
+        given = self.noise or any(getattr(self, key) for key in SCATTERS)
+        if not (given or (self.strengths and set(self.of) == {"yield"})):
             raise InputError(
                 " must give a scatter or a noise, but gives none. Give the scatter of the moduli "
                 "({uncertainty.moduli=0.05}) or the noise of the heights ({uncertainty.noise})."
@@ -63,6 +68,9 @@ class UncertaintySettings(Settings):
 
 QUANTITIES = (
     Quantity("uncertainty_source", "", "source of the uncertainty", ("source",)),
+    Quantity("uncertainty_yield_layer", "", "layer that may yield first", ("yielding_layer",)),
+    Quantity("uncertainty_yield_factor", "1", "load factor at which the layer yields", ("yielding_layer",)),
+    Quantity("uncertainty_yield_deviation", "1", "relative standard deviation of that factor", ("yielding_layer",)),
     *(
         item
         for name, (unit, label) in ASKED.items()

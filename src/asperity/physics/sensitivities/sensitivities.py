@@ -7,11 +7,13 @@ from collections.abc import Iterable
 
 from ...contact.result import ContactResult
 from ...core.engine import Engine
+from ...core.errors import InputError
 from .answer import Sensitivities
 from .one_load import at_one_load
 from .outputs import Output, output
 from .ranged import RANGED, over_loads
 from .system import RESIDUAL, Held
+from .yielding import FirstYield, yield_factor
 
 
 def sensitivities(
@@ -41,8 +43,9 @@ def sensitivities(
         ``"mean_gap"`` (m), ``"elastic_energy"`` or ``"complementary_energy"`` p·u/2 - p·h (J),
         ``PressureNorm(m)``, ``PressureAt(x, y)``, ``StressNorm(layer, planes)``,
         ``SmoothArea(pressure)`` or ``EdgeArea(pressure)``, or an ``Output`` of one's own; and, from
-        solves at several loads about that of the result, ``"area"`` (m²), ``"stiffness"`` dP/dδ
-        (N/m), ``"electrical_conductance"`` (S) and ``"thermal_conductance"`` (W/K).
+        solves at several loads, ``"area"`` (m²), ``"stiffness"`` dP/dδ (N/m),
+        ``"electrical_conductance"`` (S), ``"thermal_conductance"`` (W/K) and
+        ``FirstYield(stress)``, the load at first yield over that of the result.
     to
         ``"all"``, or names of parameters: ``"heights"`` of the composite surface (m), ``"force"``
         (N) or, where that is held, ``"approach"`` (m), ``"hardness"`` (Pa), constants of the bodies
@@ -66,4 +69,8 @@ def sensitivities(
     """
     if isinstance(of, str) and of in RANGED:
         return over_loads(result, RANGED[of], to, held=held, tolerance=tolerance, engine=engine)
+    if isinstance(of, FirstYield):
+        if held == "approach":
+            raise InputError(f"held of sensitivities must be load for the {of.name}, but is approach.")
+        return yield_factor(result, of, to, engine=engine)
     return at_one_load(result, output(of), to, held=held, tolerance=tolerance, engine=engine)

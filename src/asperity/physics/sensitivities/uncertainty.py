@@ -29,6 +29,7 @@ from .outputs import Output
 from .parameters import HEIGHTS, LOAD, changed
 from .ranged import Ranged
 from .sensitivities import sensitivities
+from .yielding import STRENGTH, FirstYield
 
 NOISE = "noise"
 """Name of the noise of heights among the sources."""
@@ -208,7 +209,8 @@ def uncertainty(
         The number, as for ``sensitivities``.
     scatter
         Standard deviation of the logarithm, about the relative one, by the name of each parameter;
-        that of ``"heights"`` is the calibration of the height scale.
+        that of ``"heights"`` is the calibration of the height scale. Of ``FirstYield(stress)`` also
+        ``"strength"``.
     noise
         Of the heights.
     samples
@@ -277,23 +279,28 @@ class _Draws:
 
     def one(self, generator: np.random.Generator) -> tuple[float, float]:
         """J of one sample, and J as predicted."""
-        problem, pressure, log = self.result.problem, self.result.mean_pressure, 0.0
+        problem, pressure, log, strength = self.result.problem, self.result.mean_pressure, 0.0, 1.0
         for name, deviation in self.scatter.items():
             z = deviation * float(generator.standard_normal())
             log += self.found.relative[name] * z
             if name == LOAD:
                 pressure *= math.exp(z)
+            elif name == STRENGTH:
+                strength *= math.exp(z)
             else:
                 problem = stepped_problem(problem, name, math.expm1(z))
         if self.noise is not None:
             added = self.noise.drawn(problem.grid, generator)
             log += float((np.asarray(self.found[HEIGHTS]) * added).sum()) / self.found.value
             problem = changed(problem, HEIGHTS, added)
-        return self._value(problem, pressure), self.found.value * math.exp(log)
+        return self._value(problem, pressure, strength), self.found.value * math.exp(log)
 
-    def _value(self, problem: ContactProblem, pressure: float) -> float:
-        """J of ``problem`` at a mean ``pressure``."""
+    def _value(self, problem: ContactProblem, pressure: float, strength: float) -> float:
+        """J of ``problem`` at a mean ``pressure``, with the ``strength`` over that of the layer."""
         output, method = self.found.output, ActiveSet(tolerance=CLOSE)
+        if isinstance(output, FirstYield):
+            force, own = pressure * problem.grid.area, strength * float(np.asarray(self.found.parameters[STRENGTH]))
+            return output.factor(problem, force, own, self.found.value)
         operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=self.engine)
         ranged = output if isinstance(output, Ranged) else None
         factors = np.ones(1) if ranged is None else ranged.factors(self.result)

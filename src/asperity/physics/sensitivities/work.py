@@ -63,11 +63,8 @@ class SensitivitiesWork(WithFacts):
         for name in ask.of:
             if name in CONDUCTANCES:
                 require_conducting(problem, FLOWS[name.removesuffix("_conductance")])
-            if name == "yield" and not _strong(problem):
-                raise InputError(
-                    "strength of a layer or base must be known for the sensitivity of its load at yield, but is not. "
-                    "Give {yield_stress}."
-                )
+            if name == "yield":
+                require_strength(problem)
 
     def compute(self, ask: SensitivitySettings, solved: Solved) -> Found:
         """Relative sensitivities of each number, and the map of the first."""
@@ -171,6 +168,12 @@ def _one(
 def first_to_yield(result: ContactResult) -> StressNorm:
     """Norm of the stress in the layer of the body, or of the counter body, that is nearest to its
     strength under the load of ``result``."""
+    return max(yielding_norms(result), key=lambda item: item[0])[1]
+
+
+def yielding_norms(result: ContactResult) -> list[tuple[float, StressNorm]]:
+    """Largest stress over strength under the load of ``result``, and the norm of the stress, in
+    each layer and half-space of known strength."""
     areas = result.spot_areas
     radius = math.sqrt(float(areas.max()) / math.pi)
     problem = result.problem
@@ -180,7 +183,16 @@ def first_to_yield(result: ContactResult) -> StressNorm:
         planes = tuple(radius * share for share in DEPTHS) if infinite else SHARES_OF_LAYER
         norm = StressNorm(layer, planes, m=EXPONENT, of=which)  # type: ignore[arg-type]
         found.append((norm.largest(state) / strength, norm))
-    return max(found, key=lambda item: item[0])[1]
+    return found
+
+
+def require_strength(problem: ContactProblem) -> None:
+    """Refuse a ``problem`` without a layer or base of known strength, with an ``InputError``."""
+    if not _strong(problem):
+        raise InputError(
+            "strength of a layer or base must be known for the sensitivity of its load at yield, but is not. "
+            "Give {yield_stress}."
+        )
 
 
 def _strong(problem: ContactProblem) -> list[tuple[str, int, float, bool]]:
@@ -224,16 +236,30 @@ def in_words(name: str, problem: ContactProblem) -> str:
         return _PLAIN[name]
     place, _, kind = name.rpartition(".")
     which, _, part = place.partition(".")
+    return f"{_KINDS[kind]} of {_part_in_words(which, part, problem)}"
+
+
+def layer_in_words(norm: StressNorm, problem: ContactProblem) -> str:
+    """Words for the layer of a ``norm`` of the stress, such as "layer 1 (DLC)"."""
+    body = getattr(problem, norm.of)
+    if not isinstance(body, Layered):
+        return _part_in_words(norm.of, "", problem)
+    part = f"layers[{norm.layer}]" if norm.layer < len(body.layers) else "base"
+    return _part_in_words(norm.of, part, problem)
+
+
+def _part_in_words(which: str, part: str, problem: ContactProblem) -> str:
+    """Words for a ``part`` of one of the bodies, none for a homogeneous one."""
     body = getattr(problem, which)
     owner = "" if which == "body" else " of the counter body"
     if not part:
-        return f"{_KINDS[kind]} of the {which.replace('_', ' ')}"
+        return f"the {which.replace('_', ' ')}"
     if part == "base":
         material = body.base.name if isinstance(body.base, Elastic) else ""
-        return f"{_KINDS[kind]} of the base{owner}{f' ({material})' if material else ''}"
+        return f"the base{owner}{f' ({material})' if material else ''}"
     number = int(part.removeprefix("layers[").removesuffix("]"))
     material = body.layers[number].material.name
-    return f"{_KINDS[kind]} of layer {number + 1}{owner}{f' ({material})' if material else ''}"
+    return f"layer {number + 1}{owner}{f' ({material})' if material else ''}"
 
 
 def _findings(name: str, found: Sensitivities) -> list[Advice]:

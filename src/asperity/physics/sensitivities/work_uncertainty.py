@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ...contact.problem import ContactProblem
+from ...contact.result import ContactResult
 from ...core.engine import CpuEngine
 from ...core.status import Advice
 from ...core.units import percent, show
@@ -20,10 +21,14 @@ from .outputs import Output, PressureNorm
 from .parameters import HARDNESS, HEIGHTS, LOAD, parameters
 from .part_uncertainty import ASKED, UncertaintySettings
 from .uncertainty import NOISE, HeightNoise, Uncertainty, uncertainty
-from .work import CONDUCTANCES, in_words
+from .work import CONDUCTANCES, in_words, layer_in_words, require_strength, yielding_norms
+from .yielding import STRENGTH, FirstYield
 
 EXPONENT = 16.0
 """Of the norm for a peak pressure."""
+
+NEAR = 0.5
+"""Share of stress over strength in the layer that yields first from which a layer is near to it."""
 
 LINEAR = 0.2
 """Relative standard deviation above which linear error bars are in doubt."""
@@ -42,6 +47,8 @@ class UncertaintyWork(WithFacts):
         for name in ask.of:
             if name in CONDUCTANCES:
                 require_conducting(problem, FLOWS[name.removesuffix("_conductance")])
+            if name == "yield":
+                require_strength(problem)
 
     def compute(self, ask: UncertaintySettings, solved: Solved) -> Found:
         """Error bar of each number, and the share of each source."""
@@ -51,12 +58,16 @@ class UncertaintyWork(WithFacts):
         noise = HeightNoise(float(ask.noise), float(ask.noise_length)) if ask.noise else None
         names, values, findings = [*scatter, *([NOISE] if noise else [])], dict[str, Any](), list[Advice]()
         parts = dict[str, dict[str, float]]()
+        how: dict[str, Any] = {"noise": noise, "samples": ask.samples, "seed": ask.seed, "engine": engine}
         for name in ask.of:
-            of: str | Output = PressureNorm(EXPONENT) if name == "peak_pressure" else name
             with solved.stage(f"uncertainty of the {ASKED[name][1]}"):
-                found = uncertainty(
-                    reached.result, of, scatter, noise=noise, samples=ask.samples, seed=ask.seed, engine=engine
-                )
+                if name == "yield":
+                    found, layers = _of_yield(reached.result, scatter, how)
+                    values |= layers
+                else:
+                    of: str | Output = PressureNorm(EXPONENT) if name == "peak_pressure" else name
+                    own = {key: deviation for key, deviation in scatter.items() if key != STRENGTH}
+                    found = uncertainty(reached.result, of, own, **how)
             values |= _values(name, found, names)
             parts[name] = dict(found.parts)
             findings += _findings(name, found)
@@ -79,7 +90,10 @@ class UncertaintyWork(WithFacts):
         names = [str(name) for name in found.values["uncertainty_source"]]
         shown = Contributing(
             tuple(facts["words"][name] for name in names),
-            {ASKED[of][1]: np.array([100.0 * facts["parts"][of][name] for name in names]) for of in facts["of"]},
+            {
+                ASKED[of][1]: np.array([100.0 * facts["parts"][of].get(name, 0.0) for name in names])
+                for of in facts["of"]
+            },
         )
         return figures_by(share_plots(shown), shown)
 
@@ -121,9 +135,17 @@ class UncertaintyWork(WithFacts):
                     percent(float(shares[k]), 2),
                 )
                 for k in order
+                if names[k] in facts["parts"][of]
             )
             headings = ("Source", "Its deviation", f"Deviation of the {label}", "Share of the variance")
             tables.append((f"Where the uncertainty of the {label} comes from", Table(headings, cells)))
+        if "uncertainty_yield_layer" in values:
+            columns = (values[f"uncertainty_yield_{key}"] for key in ("layer", "factor", "deviation"))
+            layers = tuple(
+                (str(name), f"{factor:.4g}", percent(float(deviation), 2))
+                for name, factor, deviation in zip(*columns, strict=True)
+            )
+            tables.append(("First yield by layer", Table(("Layer", "Load factor", "Its deviation"), layers)))
         if facts["where"]:
             rows.insert(0, ("at", facts["where"]))
         return Words(" ".join(said), headline, rows, tuple(tables), _REMARKS)
@@ -139,8 +161,26 @@ def scatter_of(ask: UncertaintySettings, problem: ContactProblem) -> dict[str, f
     found = {each.name: float(getattr(ask, _KEYS[each.constant.kind])) for each in parameters(problem)}
     if np.all(np.isfinite(problem.law.pressure_cap())):
         found[HARDNESS] = float(ask.hardness)
-    found |= {LOAD: float(ask.load), HEIGHTS: float(ask.height_scale)}
+    found |= {LOAD: float(ask.load), HEIGHTS: float(ask.height_scale), STRENGTH: float(ask.strengths)}
     return {name: deviation for name, deviation in found.items() if deviation}
+
+
+def _of_yield(
+    result: ContactResult, scatter: dict[str, float], how: dict[str, Any]
+) -> tuple[Uncertainty, dict[str, Any]]:
+    """Error bar of the load factor of the layer that yields first, and values of all layers that
+    are near to it."""
+    norms = yielding_norms(result)
+    near = [norm for share, norm in norms if share >= NEAR * max(share for share, _ in norms)]
+    alone = {key: value for key, value in how.items() if key not in ("samples", "seed")}
+    bars = [(norm, uncertainty(result, FirstYield(norm), scatter, **alone)) for norm in near]
+    bars.sort(key=lambda item: item[1].value)
+    first = uncertainty(result, FirstYield(bars[0][0]), scatter, **how) if how["samples"] else bars[0][1]
+    return first, {
+        "uncertainty_yield_layer": np.array([layer_in_words(norm, result.problem) for norm, _ in bars], object),
+        "uncertainty_yield_factor": np.array([bar.value for _, bar in bars]),
+        "uncertainty_yield_deviation": np.array([bar.relative for _, bar in bars]),
+    }
 
 
 def _named(key: str, problem: ContactProblem) -> str:

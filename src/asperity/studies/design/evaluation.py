@@ -91,7 +91,8 @@ class Evaluation:
         asked = self.problem.plan.quantities
         # what an axis sets by an expression may change with a number, beside what the number sets
         self._ruled = any(axis.rule is not None for axis in self.problem.plan.axes)
-        self._slopes = self.problem.paths if differentiable(self._needed) and asked and not self._ruled else ()
+        self._sloped = differentiable(self._needed) if asked and not self._ruled else ()
+        self._slopes = self.problem.paths if self._sloped else ()
         self._indices = [[case.index for case in path] for path in self.problem.plan.paths()]
 
     @property
@@ -134,7 +135,7 @@ class Evaluation:
 
     def _paths(self, site: Site) -> list[list[StudyCase]]:
         """Cases of the design, those that differ in the load alone together."""
-        plan, changes, mark = self.problem.plan, self.problem.edits(site), ":".join(self._slopes)
+        plan, changes, mark = self.problem.plan, self.problem.edits(site), ":".join((*self._slopes, *self._sloped))
         scalars, found = plan.scalars.after(changes), list[list[StudyCase]]()
         for path in self._indices:
             edits = [(*changes, *plan.edits(index, scalars)) for index in path]
@@ -152,6 +153,7 @@ class Evaluation:
             "quantities": list(plan.quantities),
             "version": software()["asperity"],
             "slopes": list(self._slopes),
+            "sloped": list(self._sloped),
             "cases": [
                 {"key": case.key, "index": list(case.index), "edits": [plain(edit) for edit in case.edits]}
                 for case in missing
@@ -205,6 +207,13 @@ class Evaluation:
         """Keys of the sources behind the cases of a design that is computed."""
         records = (self.known[case.key] for path in self._paths(site) for case in path)
         return tuple(dict.fromkeys(key for record in records for key in record["citations"]))
+
+    def recorded(self, site: Site, name: str) -> RealArray:
+        """Any quantity ``name`` that costs nothing, in all cases of the design at ``site``, (n,);
+        NaN where it is not known."""
+        self([site])
+        records = [self.known[case.key] for path in self._paths(site) for case in path]
+        return np.array([record["values"].get(name, math.nan) for record in records])
 
     def value(self, criterion: Criterion, found: Computed) -> RealArray:
         """Value of ``criterion`` in each of its cases, (n,), or their mean: of samples the mean,

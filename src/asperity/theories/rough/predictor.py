@@ -22,6 +22,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
+from types import MappingProxyType
 from typing import Self, TypeAlias
 
 import numpy as np
@@ -60,6 +61,17 @@ LAYERED_GAP = 0.03
 """Standard error of the gap over the rms height that a layer adds, per unit of the logarithm of its
 modulus over that of the base."""
 
+CAPPED: Mapping[str, tuple[float, float]] = MappingProxyType({"area_pixels": (2.1, 0.035), "area": (1.75, 0.06)})
+"""Power n of the factor (1 + uⁿ)^(1/n) on the elastic area under a hardness H, u = p/(H A) with the
+counted share A, and the relative error that it leaves of half-spaces and layers up to u = 1.5."""
+
+CAPPED_RANGE, MOST_CAPPED, CAPPED_BEYOND = 2.5, 0.8, 0.15
+"""Largest u and mean pressure over hardness of the contacts behind it, and the relative error of
+the area without pixels beyond u = 1.5."""
+
+CAPPED_GAP = 0.6
+"""u up to which a hardness lowers the mean gap by less than 0.05 rms heights."""
+
 Row: TypeAlias = Mapping[str, float]
 Powers: TypeAlias = tuple[tuple[int, ...], ...]
 
@@ -87,6 +99,12 @@ class Expected:
         """Where the number of one surface lies in 19 of 20 cases, from zero on."""
         reach = 2.0 * math.hypot(self.error, self.scatter)
         return max(0.0, self.value - reach), self.value + reach
+
+    def below(self, limit: float) -> Expected:
+        """The number where it cannot exceed ``limit``, whose band ends there."""
+        value, reach = min(self.value, limit), 2.0 * math.hypot(self.error, self.scatter)
+        share = min(1.0, (limit - value) / reach) if reach else 1.0
+        return Expected(value, self.error * share, self.scatter * share)
 
     def times(self, factor: float, error: float = 0.0) -> Expected:
         """Multiplied by a ``factor`` > 0 with a relative standard ``error``."""
@@ -318,6 +336,39 @@ class Predictor:
 
     def _layered(self, found: Expected, groups: Groups, name: str) -> Expected:
         return found if groups.ratio == 1.0 else found.times(*self.factors.at(groups, name))
+
+
+def capped(found: Expected, u: float, name: str) -> Expected:
+    """The elastic share ``found`` of the area, ``"area"`` or ``"area_pixels"``, under a hardness of
+    1/u times the mean real pressure."""
+    if not math.isfinite(found.value):
+        return found
+    power, error = CAPPED[name]
+    if name == "area" and u > 1.5:
+        error = CAPPED_BEYOND
+    follows = 1.0 / (1.0 + u**power)  # d ln A/d ln A of the elastic contact: none once A is p/H
+    factor = (1.0 + u**power) ** (1.0 / power)
+    value = min(1.0, found.value * factor)
+    own = math.hypot(found.error / found.value * follows, error * min(1.0, u / 0.3))
+    return Expected(value, value * own, value * follows * found.scatter / found.value)
+
+
+def of_shape(found: Expected, y: float, skewness: float, excess: float, name: str) -> Expected:
+    """The ``found`` area, ``"peak"`` or ``"gap"`` (over the rms height) with the standard error of
+    heights that are not Gaussian, of this skewness and kurtosis less 3.
+
+    It is what surfaces of given skewness and kurtosis, made by translation of Gaussian ones, are
+    off.
+    """
+    low = math.log10(0.2 / y)
+    if name == "peak":
+        of_skewness, of_excess = 0.9, 0.8
+    elif name == "gap":
+        of_skewness, of_excess = max(0.05, 0.55 * low), max(0.05, 0.17 * low)
+    else:
+        of_skewness, of_excess = max(0.1, 0.27 + 0.33 * low), max(0.05, 0.05 + 0.33 * low)
+    more = math.hypot(of_skewness * skewness, of_excess * excess) * (1.0 if name == "gap" else found.value)
+    return Expected(found.value, math.hypot(found.error, more), found.scatter)
 
 
 def _below(height: float) -> str:
