@@ -21,73 +21,51 @@ Labels = NDArray[np.integer[Any]]
 
 
 def labelled(mask: BoolArray, *, wraps: tuple[bool, bool], diagonal: bool = False) -> tuple[Labels, int]:
-    """Label the islands of ``mask`` (nx, ny) in the order of their first pixels and count them.
+    """Label the islands of ``mask`` (nx, ny) and count them.
 
     Pixels are joined by edges, with ``diagonal`` by corners too; along x and along y also across
     the border where the map ``wraps``.
     """
-    nx, ny = mask.shape
-    labels = np.zeros(mask.shape, np.int32)
-    padded = np.zeros((nx, ny + 2), dtype=bool)
-    padded[:, 1:-1] = mask
-    turns = np.flatnonzero(padded[:, 1:] != padded[:, :-1])
-    # lengths of pixels along y: their row, first pixel and the one after the last
-    rows, first = np.divmod(turns[::2], ny + 1)
-    last = turns[1::2] % (ny + 1)
-    if not rows.size:
-        return labels, 0
-    whole = _joined(rows.size, _touching(rows, first, last, mask.shape, wraps, corners=int(diagonal)))
-    names = np.cumsum(whole == np.arange(rows.size), dtype=np.int32)
-    sizes = last - first
-    pixels = np.arange(int(sizes.sum())) + np.repeat(rows * ny + first - (np.cumsum(sizes) - sizes), sizes)
-    labels.ravel()[pixels] = np.repeat(names[whole], sizes)
-    return labels, int(names[-1])
+    from scipy.ndimage import label
 
+    found, islands = label(mask, np.ones((3, 3)) if diagonal else None)  # without regard to what lies across the border
+    labels: Labels = np.asarray(found)
+    count = int(islands)
+    if count == 0 or not any(wraps):
+        return labels, count
+    # the number from 0 of the island to which each label belongs across the border
+    pairs: list[tuple[Labels, Labels]] = []  # of neighbours on both sides of the borders that wrap
+    for axis in (axis for axis in (0, 1) if wraps[axis]):
+        low_side, high_side = np.asarray(labels.take(0, axis)), np.asarray(labels.take(-1, axis))
+        pairs.append((low_side, high_side))
+        if diagonal and wraps[1 - axis]:
+            pairs += [(low_side, np.roll(high_side, shift)) for shift in (1, -1)]
+        elif diagonal:
+            pairs += [(low_side[1:], high_side[:-1]), (low_side[:-1], high_side[1:])]
+    first, last = (np.concatenate(lines) for lines in zip(*pairs, strict=True))
+    joined = (first > 0) & (last > 0)
+    parent: dict[int, int] = {}  # an island joined to one of a smaller label; those without are on their own
 
-def _touching(
-    rows: Labels, first: Labels, last: Labels, shape: tuple[int, ...], wraps: tuple[bool, bool], *, corners: int
-) -> tuple[Labels, Labels]:
-    """Pairs of lengths of pixels that touch, by their numbers: in neighbouring rows, by one pixel
-    more where ``corners`` count, and across the borders."""
-    (nx, ny), numbers = shape, np.arange(rows.size)
-    wide = ny + 3  # no length of a row lies near one of the next
-    begins, ends = rows * wide + first, rows * wide + last
-    below = rows + 1
-    if wraps[0]:
-        below[below == nx] = 0
-    low = np.searchsorted(ends, below * wide + first - corners, side="right")
-    counts = np.maximum(np.searchsorted(begins, below * wide + last + corners, side="left") - low, 0)
-    one = [np.repeat(numbers, counts)]
-    other = [np.arange(int(counts.sum())) + np.repeat(low - (np.cumsum(counts) - counts), counts)]
-    if wraps[1]:
-        left, right = np.full((2, nx), -1)
-        at_left, at_right = first == 0, last == ny
-        left[rows[at_left]], right[rows[at_right]] = numbers[at_left], numbers[at_right]
-        for step in (0, 1, -1) if corners else (0,):
-            beside = np.roll(left, step)
-            if step and not wraps[0]:
-                beside[0 if step > 0 else -1] = -1
-            both = (beside >= 0) & (right >= 0)
-            one.append(right[both])
-            other.append(beside[both])
-    return np.concatenate(one), np.concatenate(other)
+    def root(island: int) -> int:
+        while island in parent:
+            parent[island] = parent.get(parent[island], parent[island])  # the next search is half as long
+            island = parent[island]
+        return island
 
-
-def _joined(count: int, pairs: tuple[Labels, Labels]) -> Labels:
-    """Smallest number of all, of so many, to which each is joined by ``pairs`` of them."""
-    smallest: Labels = np.arange(count)
-    one, other = pairs
-    while one.size:
-        low, high = np.minimum(smallest[one], smallest[other]), np.maximum(smallest[one], smallest[other])
-        apart = low != high
-        one, other, low, high = one[apart], other[apart], low[apart], high[apart]
-        np.minimum.at(smallest, high, low)
-        while True:
-            further = smallest[smallest]
-            if np.array_equal(further, smallest):
-                break
-            smallest = further
-    return smallest
+    numbers = np.unique((first[joined] - 1) * np.int64(count) + (last[joined] - 1))  # each once, as one number
+    for pair in numbers.tolist():
+        low, high = sorted((root(pair // count), root(pair % count)))
+        if low != high:
+            parent[high] = low
+    if not parent:
+        return labels, count
+    alone = np.ones(count, dtype=bool)
+    alone[list(parent)] = False
+    whole = np.cumsum(alone) - 1
+    for island in parent:
+        whole[island] = whole[root(island)]
+    names = np.concatenate([[0], whole + 1]).astype(labels.dtype)
+    return names.take(labels), count - len(parent)
 
 
 def island_sizes(mask: BoolArray, *, wraps: tuple[bool, bool]) -> Labels:

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy import ndimage
 
 from asperity.contact.measure import island_sizes, labelled, spans
 
@@ -63,12 +62,3 @@ def test_sizes_are_the_pixels_of_the_labels(seed, share, x, y):
     labels, count = labelled(mask, wraps=(x, y))
     counted = np.bincount(labels.ravel(), minlength=count + 1)[1:]
     np.testing.assert_array_equal(island_sizes(mask, wraps=(x, y)), counted)
-
-
-@given(st.integers(0, 10**6), st.floats(0.0, 1.0), st.integers(1, 9), st.integers(1, 12), st.booleans())
-def test_islands_are_those_of_scipy_in_its_order(seed, share, nx, ny, diagonal):
-    mask = np.random.default_rng(seed).random((nx, ny)) < share
-    labels, count = labelled(mask, wraps=(False, False), diagonal=diagonal)
-    wanted, number = ndimage.label(mask, np.ones((3, 3)) if diagonal else None)
-    assert count == number
-    np.testing.assert_array_equal(labels, wanted)
