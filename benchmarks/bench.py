@@ -42,6 +42,7 @@ QUICK = (
     "motion.py --cases 100",
     "whole_wait.py --rounds 2",
     "explore.py",
+    "output.py --rounds 1",
     "viewer.py",
 )
 """Scripts and their options, in the order of README.md."""
@@ -72,6 +73,7 @@ FULL = (
     "motion.py",
     "whole_wait.py",
     "explore.py --sizes 512 1024 2048",
+    "output.py",
     "viewer.py",
 )
 

@@ -217,17 +217,26 @@ ADVANCED = "Advanced: "
 """Beginning of the title of a panel that only ``--help-all`` shows."""
 
 
+def _says_nothing(param: Any) -> bool:
+    """Whether an option is None where it is not given, whatever else."""
+    plain = param.param_type_name == "option" and param.nargs == 1 and not param.multiple
+    return plain and param.default is None and not (param.required or param.callback or param.envvar or param.is_flag)
+
+
 class Command(TyperCommand):
     """A command whose page leaves the advanced options to ``--help-all``, and which names all
     missing options at once."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Take ``args`` apart."""
-        given = list(args)
+        found, every = self.make_parser(ctx).parse_args(list(args))[0], self.params
+        # of some hundred options few are given; for each of the others a check would be built
+        page = found.get("help") or found.get("help_all")  # which shows all of them
+        left = [] if page else [param.name for param in every if _says_nothing(param) and param.name not in found]
+        self.params = [param for param in every if param.name not in left]
         try:
             rest: list[str] = super().parse_args(ctx, args)
         except typer.BadParameter:
-            found = self.make_parser(ctx).parse_args(given)[0]
             missing: list[Any] = [param for param in self.params if param.required and param.name not in found]
             if len(missing) < 2:
                 raise
@@ -236,6 +245,9 @@ class Command(TyperCommand):
                 for param in missing
             ]
             ctx.fail(f"Missing {', '.join(names[:-1])} and {names[-1]}")
+        finally:
+            self.params = every
+        ctx.params.update(dict.fromkeys(left))
         return rest
 
     def format_options(self, ctx: Any, formatter: Any) -> None:

@@ -386,20 +386,21 @@ def real_area(pressure: RealArray, plastic: BoolArray, edges: Edges, wraps: tupl
     labels, count = labelled(contact, wraps=wraps)
     if count == 0:
         return RealArea(np.zeros(0), 0.0, 0.0)
-    flat = labels.ravel()
-    found = np.bincount(flat, minlength=count + 1).astype(float)
+    flat, touching = labels.ravel(), np.flatnonzero(contact)
+    spot = flat[touching]  # of each point in contact, few of all
+    found = np.bincount(spot, minlength=count + 1).astype(float)
     found += np.bincount(flat[edges.inner], edges.excess, minlength=count + 1)
     least = np.full(count + 1, LEAST_SPOT)
     if plastic.any():
-        force = np.bincount(flat, pressure.ravel().astype(np.float64), minlength=count + 1)
+        p, capped = pressure.ravel(), plastic.ravel()
+        force = np.bincount(spot, p[touching].astype(np.float64), minlength=count + 1)
         # pressure (count + 1,) that no point of a spot exceeds; infinite where the limit varies and
         # none of its pixels is at it
-        p, capped = pressure.ravel(), plastic.ravel()
         at_limit = p[capped].astype(np.float64)
         limits = np.full(count + 1, float(at_limit.max()))
         if float(at_limit.min()) < float(at_limit.max()) * (1.0 - SAME_LIMIT):
             highest, reached = np.zeros(count + 1), np.zeros(count + 1, dtype=bool)
-            np.maximum.at(highest, flat, p)
+            np.maximum.at(highest, spot, p[touching])
             reached[flat[capped]] = True
             limits = np.where(reached, highest, np.inf)
         np.maximum(least, force / limits, out=least)

@@ -242,8 +242,6 @@ class HistoryResult(Advised, Stored):
     @cached_property
     def energies(self) -> EnergyBalance:
         """Where the work goes, see ``EnergyBalance``."""
-        from scipy.integrate import cumulative_trapezoid
-
         steps, start = self.steps, self.start
         problem, approach = steps[0].problem, self.approach
         attraction = [[each.pulls() for each in step.answers if each.traction_beside() is not None] for step in steps]
@@ -264,9 +262,9 @@ class HistoryResult(Advised, Stored):
             virgin = problem.profile()
             dented = virgin if start is None else virgin - start.permanent_indentation - start.imprint
             approach = np.concatenate([[float(virgin.max() - dented.max())], approach])
-            work, pulled = (cumulative_trapezoid(np.concatenate([[0.0], f]), approach) for f in (force, pull))
+            work, pulled = (_integrated(np.concatenate([[0.0], f]), approach)[1:] for f in (force, pull))
         else:
-            work, pulled = (cumulative_trapezoid(f, approach, initial=0) for f in (force, pull))
+            work, pulled = (_integrated(f, approach) for f in (force, pull))
             for known in (item.work(steps) for item in problem.physics):
                 work = work if known is None else known + pulled
             elastic, plastic = elastic - elastic[0], plastic - plastic[0]
@@ -294,6 +292,11 @@ class HistoryResult(Advised, Stored):
     def scalars(self, name: str) -> RealArray:
         """Attribute ``name`` of every step."""
         return np.array([getattr(result, name) for result in self.steps], dtype=float)
+
+
+def _integrated(y: RealArray, x: RealArray) -> RealArray:
+    """Integral of ``y`` over ``x`` from the first point to each, by trapezia."""
+    return np.concatenate([[0.0], np.cumsum(np.diff(x) * (y[1:] + y[:-1]) / 2.0)])
 
 
 @dataclass(frozen=True, eq=False)

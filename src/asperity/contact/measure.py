@@ -57,12 +57,15 @@ def labelled(mask: BoolArray, *, wraps: tuple[bool, bool], diagonal: bool = Fals
         low, high = sorted((root(pair // count), root(pair % count)))
         if low != high:
             parent[high] = low
+    if not parent:
+        return labels, count
     alone = np.ones(count, dtype=bool)
     alone[list(parent)] = False
     whole = np.cumsum(alone) - 1
     for island in parent:
         whole[island] = whole[root(island)]
-    return np.concatenate([[0], whole + 1])[labels], count - len(parent)
+    names = np.concatenate([[0], whole + 1]).astype(labels.dtype)
+    return names.take(labels), count - len(parent)
 
 
 def island_sizes(mask: BoolArray, *, wraps: tuple[bool, bool]) -> Labels:

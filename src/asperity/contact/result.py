@@ -270,11 +270,11 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
     @cached_property
     def edges(self) -> Edges:
         """Where the edges of the contact run between the pixels."""
-        return edges_in(self.problem, self.pressure, _passing_gap(self), self.plastic)
+        return edges_in(self.problem, self.pressure, passing_gap(self), self.plastic)
 
     @cached_property
     def _real_area(self) -> RealArea:
-        edges = vars(self).get("edges") or edges_in(self.problem, self.pressure, _passing_gap(self), self.plastic)
+        edges = vars(self).get("edges") or edges_in(self.problem, self.pressure, passing_gap(self), self.plastic)
         return real_area(self.pressure, self.plastic, edges, self.problem.boundary.wraps)
 
     @property
@@ -440,7 +440,7 @@ def assemble(
         area_fraction=pixels / grid.n_points,
         max_pressure=float(computed.max()),
         approach=found.posed.top + found.level,
-        mean_gap=Later(lambda result: float(_passing_gap(result).mean())),
+        mean_gap=Later(lambda result: float(passing_gap(result).mean())),
         elastic_energy=springs[0] if springs else 0.5 * work * grid.pixel_area,
         plastic_area_fraction=yielding / pixels if pixels else 0.0,
         normal_stiffness=later,
@@ -470,7 +470,7 @@ def unindented(result: ContactResult) -> RealArray:
     return np.zeros(result.problem.grid.shape)
 
 
-def _passing_gap(result: ContactResult) -> RealArray:
+def passing_gap(result: ContactResult) -> RealArray:
     """Gap (nx, ny) in m; one that is not at hand is not kept, nor are the edges that follow: a path
     may hold many."""
     gap = vars(result)["gap"]

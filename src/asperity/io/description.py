@@ -57,6 +57,17 @@ TYPES: tuple[type, ...] = (
 """Types that can be written beside those of the physics: frozen dataclasses of numbers, text,
 arrays, tuples and one another."""
 
+_PLAIN: Mapping[str, type] = MappingProxyType({kind.__name__: kind for kind in TYPES})
+
+
+def _without_physics(name: str) -> Mapping[str, type]:
+    """Types of which one has this ``name``, if that takes no import of all physics, a quarter of a
+    second; else none."""
+    if name in _PLAIN:
+        return _PLAIN
+    places = [place for place in DESCRIBED if place.partition(":")[2] == name]
+    return {name: home(places[0])} if places else {}
+
 
 def known_types() -> dict[str, type]:
     """All types that can be written by name, those of a physics of one's own by qualified name;
@@ -110,7 +121,9 @@ def describe(value: object, arrays: dict[str, RealArray] | None = None, name: st
     if isinstance(value, np.ndarray) and arrays is not None and name not in arrays:
         arrays[name] = value
         return {ARRAY: name}
-    kinds = known_types()
+    kinds = _without_physics(type(value).__name__)
+    if kinds.get(type(value).__name__) is not type(value):
+        kinds = known_types()
     for name_of in (type(value).__name__, kind_name(type(value))):
         if is_dataclass(value) and kinds.get(name_of) is type(value):
             entries = {f.name: getattr(value, f.name) for f in fields(value) if f.init}
@@ -140,7 +153,9 @@ def rebuild(description: Any, arrays: Mapping[str, RealArray] | None = None) -> 
         if arrays is None or description[ARRAY] not in arrays:
             raise FileFormatError(f"result file must hold the array {description[ARRAY]!r}, but does not.")
         return arrays[description[ARRAY]]
-    kinds, name = known_types(), description.get("type")
+    name = description.get("type")
+    kinds = _without_physics(name) if isinstance(name, str) else {}
+    kinds = kinds or known_types()
     if not isinstance(name, str) or name not in kinds:
         raise FileFormatError(
             f"type in a result file must be one of {', '.join(sorted(kinds))}, but is {name!r}; update asperity."

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..contact.measure import labelled
-from ..contact.result import ContactResult
+from ..contact.result import ContactResult, passing_gap
 from ..core.arrays import BoolArray, RealArray
 from ..core.grid import Grid
 from ..core.units import percent
@@ -93,7 +94,7 @@ class Kinds:
     """A map of classes: the number of the class of each point (nx, ny), and name and colour of each
     class."""
 
-    kinds: RealArray
+    kinds: RealArray | NDArray[np.uint8]
     grid: Grid
     classes: tuple[tuple[str, str], ...]
 
@@ -151,7 +152,7 @@ def plot_heights(surface: Surface, ax: Axes) -> Axes:
 
 def gap_field(result: ContactResult) -> Field:
     """Gap between the deformed surfaces of ``result``; points in contact are blank."""
-    gap = np.where(result.contact, np.nan, result.gap)
+    gap = np.where(result.contact, np.nan, passing_gap(result))
     look = Look("m", "gap", GAP_MAP, blank="in contact", blank_value=0.0, reduced="min")
     return Field(gap, result.problem.grid, look)
 
@@ -199,7 +200,7 @@ def plot_residual(result: ContactResult, ax: Axes) -> Axes:
 
 def contact_kinds(result: ContactResult) -> Kinds:
     """Where the bodies of ``result`` touch: not, elastically, or at the hardness."""
-    kinds = result.contact.astype(float) + result.plastic
+    kinds = np.add(result.contact, result.plastic, dtype=np.uint8)
     classes = (("no contact", NO_CONTACT), ("elastic", BLUE), ("plastic", VERMILLION))
     return Kinds(kinds, result.problem.grid, classes if result.plastic.any() else classes[:2])
 
@@ -209,7 +210,9 @@ def plot_contact(result: ContactResult, ax: Axes) -> Axes:
     return plot_map(contact_kinds(result), ax)
 
 
-def plot_classes(kinds: RealArray, grid: Grid, ax: Axes, classes: tuple[tuple[str, str], ...]) -> Axes:
+def plot_classes(
+    kinds: RealArray | NDArray[np.uint8], grid: Grid, ax: Axes, classes: tuple[tuple[str, str], ...]
+) -> Axes:
     """Draw the number of the class of each point, ``kinds`` (nx, ny), on ``ax``, with shares of the
     area above the map.
 
@@ -283,7 +286,7 @@ def limits(drawn: RealArray, look: Look) -> tuple[float, float]:
     return (-max(abs(low), abs(high)), max(abs(low), abs(high))) if look.about_zero else (low, high)
 
 
-def _image(drawn: RealArray, grid: Grid, ax: Axes, *, cmap: Any, **options: Any) -> AxesImage:
+def _image(drawn: RealArray | NDArray[np.uint8], grid: Grid, ax: Axes, *, cmap: Any, **options: Any) -> AxesImage:
     """Pixels of ``drawn`` [x, y] with x to the right and y up, lengths to scale unless the map is
     very slender."""
     from matplotlib import colormaps

@@ -228,15 +228,17 @@ def _within_decade(axis: Any, room: float, value: float, place: int | None) -> s
     """Label of the minor tick at ``value``: none where two decades are labelled, or others are
     nearer than ``room`` in inches."""
     low, high = sorted(axis.get_view_interval())
+    major = [at for at in axis.get_majorticklocs() if low <= at <= high]
+    if len(major) > 1:
+        return ""
     box = axis.axes.bbox
     length = (box.width if axis.axis_name == "x" else box.height) / axis.get_figure().dpi
     inch = math.log10(high / low) / length
-    major = [at for at in axis.get_majorticklocs() if low <= at <= high]
     labelled = [math.log10(at) for at in major]
     leading = {
         at: round(at / 10.0 ** math.floor(math.log10(at))) for at in axis.get_minorticklocs() if low <= at <= high
     }
-    for at in sorted(leading, key=lambda at: (FIRST_LABELS.index(leading[at]), at)) if len(major) < 2 else ():
+    for at in sorted(leading, key=lambda at: (FIRST_LABELS.index(leading[at]), at)):
         if all(abs(math.log10(at) - other) >= room * inch for other in labelled):
             labelled.append(math.log10(at))
             if math.isclose(at, value, rel_tol=1e-9):

@@ -41,7 +41,7 @@ import json
 import math
 import zlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
 from typing import Any, Protocol, TypeAlias
@@ -59,6 +59,7 @@ from ..plots.contact import row_of_section
 from ..plots.maps import DECADES, Cut, Field, Kinds, Look, limits
 from ..plots.picture import AxesCurves, Figure, colour_table, scale
 from ..run.execute import Outcome
+from .blocks import folded, reduced, whole_blocks
 
 MOST_POINTS = 1024 * 1024
 """Points of an array; larger grids are shown coarser."""
@@ -83,24 +84,6 @@ MASKED = {8: 255, 16: 65535}
 REDUCED = {"max": "the largest", "min": "the smallest", "mean": "the mean"}
 
 
-def reduced(values: RealArray, block: int, how: str) -> RealArray:
-    """Largest, smallest or mean value of every block of ``block`` × ``block`` points, NaN where all
-    are; the last may be incomplete."""
-    if block == 1:
-        return values
-    nx, ny = values.shape
-    padded = np.full((-(-nx // block) * block, -(-ny // block) * block), np.nan)
-    padded[:nx, :ny] = values
-    blocks = padded.reshape(padded.shape[0] // block, block, -1, block)
-    there = np.isfinite(blocks)
-    if how == "mean":
-        count = there.sum(axis=(1, 3))
-        return np.where(count > 0, np.where(there, blocks, 0.0).sum(axis=(1, 3)) / np.maximum(count, 1), np.nan)
-    worst, extreme = (-np.inf, np.max) if how == "max" else (np.inf, np.min)
-    found = extreme(np.where(there, blocks, worst), axis=(1, 3))
-    return np.where(np.isfinite(found), found, np.nan)
-
-
 class Store(Protocol):
     """Keeps arrays of a scene elsewhere, from where they are fetched one by one."""
 
@@ -108,6 +91,9 @@ class Store(Protocol):
         """Entry of the array ``name`` that ``make`` gives when it is needed; one name is one
         array."""
 
+
+Classes: TypeAlias = tuple[tuple[str, str], ...]
+"""Name and colour of each class of a map."""
 
 Stored: TypeAlias = tuple[dict[str, Any], NDArray[Any]]
 """Entries of an array without its numbers, and these, in rows of y."""
@@ -158,8 +144,9 @@ def coded_kinds(shown: Kinds, *, block: int = 1) -> dict[str, Any]:
 def numbered_kinds(shown: Kinds, *, block: int = 1) -> Stored:
     """Entries and numbers of the array with the classes that ``shown`` has, 0 to 254; the largest
     of a block stands for it."""
-    numbers = reduced(shown.kinds, block, "max").astype(np.uint8)
-    shares = [float(np.mean(shown.kinds == kind)) for kind in range(len(shown.classes))]
+    kinds = shown.kinds.astype(np.uint8, copy=False)
+    numbers = kinds if block == 1 else folded(np.maximum, whole_blocks(kinds, block, 0), block)
+    shares = [int(np.count_nonzero(kinds == kind)) / kinds.size for kind in range(len(shown.classes))]
     about = _about(numbers.shape, shown.grid.spacing, block, 8)
     return about | {"low": 0.0, "step": 1.0, "shares": shares}, np.ascontiguousarray(numbers.T)
 
@@ -195,7 +182,8 @@ class _Map:
     """A map of the scene: how it looks, what makes it for each step or depth, and how many points
     one value stands for: ``block`` along a side, at the ``decisive`` of several steps ``finest``.
 
-    ``keys`` tell the arrays of one map apart, ``step`` is the place of the only step that it is of.
+    ``keys`` tell the arrays of one map apart, ``step`` is the place of the only step that it is of,
+    ``looks`` are how those look that are made already.
     """
 
     name: str
@@ -208,6 +196,7 @@ class _Map:
     decisive: int | None = None
     block: int = 1
     finest: int = 1
+    looks: dict[int, Look | Classes] = field(default_factory=dict)
 
     @property
     def fine(self) -> list[int]:
@@ -226,6 +215,7 @@ class _Map:
     def code(self, number: int) -> dict[str, Any]:
         """Array of one step or depth."""
         shown, block = self.makers[number](), self.finest if number in self.fine else self.block
+        self.looks[number] = shown.classes if isinstance(shown, Kinds) else shown.look
         if isinstance(shown, Kinds):
             return coded_kinds(shown, block=block)
         return coded(shown.values, shown.grid.spacing, block=block, how=shown.look.reduced)
@@ -237,11 +227,10 @@ class _Map:
             return numbered_kinds(shown, block=self.block)
         return numbered(shown.values, shown.grid.spacing, block=self.block, how=shown.look.reduced)
 
-    def samples(self, *, few: bool) -> list[Field | Kinds]:
-        """What is shown at all steps, or at the decisive one, the first and the last: a ``few``."""
+    def samples(self) -> list[Field | Kinds]:
+        """What is shown at a few steps: the decisive one, the first and the last."""
         ends = {0, len(self.makers) - 1}
-        chosen = ends if self.along != "steps" else ends | set(self.fine) if few else range(len(self.makers))
-        return [self.makers[number]() for number in sorted(chosen)]
+        return [self.makers[number]() for number in sorted(ends | set(self.fine) if self.along == "steps" else ends)]
 
 
 def scene_of(outcome: Outcome, *, more: Iterable[Figure] = (), **options: Any) -> dict[str, Any] | None:
@@ -469,12 +458,14 @@ def _taken(arrays: Mapping[str, Mapping[int, dict[str, Any]]]) -> int:
 
 def _described(item: _Map, arrays: list[dict[str, Any]], *, few: bool) -> dict[str, Any]:
     """Entry of a map; of a ``few`` steps only the range of the colours, which the viewer widens."""
-    shown = item.samples(few=few)
-    last = shown[-1]
+    shown = item.samples() if few else []
+    looks = [one.classes if isinstance(one, Kinds) else one.look for one in shown]
+    looks = looks or [item.looks[number] for number in range(len(item.makers))]
+    last = looks[-1]
     made: dict[str, Any] = {"name": item.name, "title": item.title, "alt": item.alt}
     made |= {"along": item.along, "step": item.step}
-    if isinstance(last, Kinds):
-        classes = max((one.classes for one in shown if isinstance(one, Kinds)), key=len)
+    if not isinstance(last, Look):
+        classes = max((look for look in looks if not isinstance(look, Look)), key=len)
         described = [{"text": name, "colour": colour} for name, colour in classes]
         blank = {"text": "no value", "value": None}
         return made | {"kind": "classes", "classes": described, "blank": blank, "reduce": "max", "arrays": arrays}
@@ -482,7 +473,7 @@ def _described(item: _Map, arrays: list[dict[str, Any]], *, few: bool) -> dict[s
         ends = [end for one in shown if isinstance(one, Field) for end in _ends(one.values)]
     else:
         ends = [end for array in arrays for end in (array["low"], array["low"] + (MASKED[16] - 1) * array["step"])]
-    return made | _look(last.look, limits(np.array(ends), last.look)) | {"kind": "values", "arrays": arrays}
+    return made | _look(last, limits(np.array(ends), last)) | {"kind": "values", "arrays": arrays}
 
 
 def _look(look: Look, ends: tuple[float, float]) -> dict[str, Any]:

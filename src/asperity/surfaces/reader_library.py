@@ -11,14 +11,14 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.abc import InspectLoader, Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
-from types import ModuleType
+from types import MappingProxyType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -31,9 +31,31 @@ _POSTPONED = ("SurfaceTopography", "SurfaceTopography.IO", "NuMPI.Optimization")
 """Packages that import far more than a reader needs; the last is that of the parallel library below
 the readers."""
 
+_HEAD = 2**16
+"""Bytes of a file from which we may tell that a reader is not meant."""
+
 _START = 512
 """Bytes at the start of a file from which a reader may tell that it is not meant, as in
 ``open_topography``."""
+
+
+def _matlab(start: bytes) -> bool:
+    """Whether a file with this ``start`` may be one of MATLAB: of version 4 by a zero in its first
+    number, later by the version after the text at its beginning."""
+    return 0 in start[:4] or any(version in start[124:126] for version in (1, 2))
+
+
+_MARKS: Mapping[str, Callable[[bytes], bool]] = MappingProxyType(
+    {
+        "MatReader": _matlab,
+        "MitutoyoReader": lambda start: start.startswith(b"PK"),
+        "NCReader": lambda start: start.startswith((b"CDF", b"\x89HDF")),
+        "XYZReader": lambda start: b"\0" not in start or start.startswith((b"\xff\xfe", b"\xfe\xff")),
+    }
+)
+"""Whether a reader may be meant by the head of a file, of those that take long to find out: they
+import scipy.io with scipy.sparse, or openpyxl, or read a file of numbers as text in six hundred
+ways."""
 
 
 @contextmanager
@@ -47,13 +69,16 @@ def opened_by_first_reader(file: Path) -> Iterator[Any]:
         If no reader can, or the library does not state its order as expected.
     """
     with file.open("rb") as stream:
-        start = stream.read(_START)
+        head = stream.read(_HEAD)
+    start = head[:_START]
     finder, reader = _Finder(), None
     # while this finder lasts, packages that are not imported yet are imported without their code
     sys.meta_path.insert(0, finder)
     try:
         package = import_module("SurfaceTopography.IO")
         for name in _order(package):
+            if name in _MARKS and not _MARKS[name](head):
+                continue
             candidate = getattr(package, name)
             if candidate.can_read(start).name == "NO":
                 continue

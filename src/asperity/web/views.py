@@ -29,8 +29,9 @@ from ..physics.stress.figures import map_figure
 from ..plots.comparison import nearest, within_limits
 from ..plots.contact import contact_figures
 from ..plots.picture import Figure
+from ..report.blocks import reduced
 from ..report.comparison import comparison_sentence
-from ..report.scene import Stored, contact_scene, reduced
+from ..report.scene import Stored, contact_scene
 from ..report.write import where
 from ..run.execute import Outcome
 from ..run.verdict import verdict

@@ -15,6 +15,7 @@ from asperity.core.arrays import RealArray
 from asperity.core.grid import Grid
 from asperity.plots.maps import Kinds
 from asperity.plots.picture import colour_table
+from asperity.report.blocks import reduced
 from asperity.report.scene import (
     BUDGET,
     MASKED,
@@ -23,7 +24,6 @@ from asperity.report.scene import (
     coded,
     coded_kinds,
     decoded,
-    reduced,
     scene,
     scene_of,
 )

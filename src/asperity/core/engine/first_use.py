@@ -9,6 +9,7 @@ same.
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -57,5 +58,6 @@ def passes() -> list[Callable[[], Any]]:
 
 
 if __name__ == "__main__":
+    gc.disable()  # a compiler makes many objects, of which a short process need not be freed
     for compile_pass in reversed(passes()):
         compile_pass()

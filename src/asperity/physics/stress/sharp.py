@@ -135,10 +135,10 @@ class _Surface:
         result, loads, grid, p = asked.result, asked.loads, asked.loads.grid, asked.loads.pressure
         bare = Tractions(grid, p, Sliding(0.0), loads.boundary, loads.datum)
         normal = next(asked.planes(bare, asked.body, [0.0]).each())
-        by_pressure = _in_plane(normal.tensor)
+        by_pressure, plane = _in_plane(normal.tensor), normal.planes[0]
+        del normal  # six fields, of which three are needed
         by_shear, wrong = np.zeros_like(by_pressure), np.zeros((2, *grid.shape))
         ratio = (np.zeros(grid.shape), np.zeros(grid.shape))
-        plane = normal.planes[0]
         modulus = float(result.problem.contact_modulus)
         if loads.sheared:
             shear = np.asarray(loads.shear_x), np.asarray(loads.shear_y)
