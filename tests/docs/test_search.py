@@ -1,11 +1,9 @@
-"""The search finds the how-to of a task first."""
+"""The search finds the how-to of a task first; ``make docs`` holds that of the whole site."""
 
 from __future__ import annotations
 
 import json
 import subprocess
-import sys
-from pathlib import Path
 
 import assemble
 import pytest
@@ -59,23 +57,3 @@ def test_a_name_that_cannot_be_meant_otherwise_comes_before_text():
         ("reference/api/contact", "asperity.contact.ContactProblem", 16, "object"),
     )
     assert found[0] == "reference/api/contact"
-
-
-@pytest.fixture(scope="module")
-def site(tmp_path_factory) -> Path:
-    """The site without the interface and the gallery, which take minutes."""
-    pytest.importorskip("sphinx", reason="the site needs the group docs of pyproject.toml")
-    folder = tmp_path_factory.mktemp("site")
-    pages = {page: text for page, text in assemble.pages().items() if "/api/" not in page}
-    for page, text in pages.items():
-        (folder / "source" / page).parent.mkdir(parents=True, exist_ok=True)
-        (folder / "source" / page).write_text(text, encoding="utf-8")
-    command = [sys.executable, "-m", "sphinx", "-b", "html", "-c", str(assemble.HERE), "-Q"]
-    subprocess.run([*command, str(folder / "source"), str(folder / "html")], check=True)
-    return folder / "html"
-
-
-@pytest.mark.slow
-def test_every_task_leads_to_its_how_to(site):
-    """``make docs`` holds the same of the whole site."""
-    assert search.misled(site) == []

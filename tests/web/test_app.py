@@ -78,6 +78,7 @@ def document(page: Any) -> dict[str, Any]:
     page.click(".q-menu >> text=document")
     text = page.inner_text(".copy code, .copy pre")
     page.click(".copy >> text=Close")
+    page.wait_for_selector(".copy", state="hidden")  # until then its end takes the focus
     return tomllib.loads(text)
 
 
@@ -333,14 +334,12 @@ def test_keys_reach_the_steps_and_the_drop_area(demo: AppServer, open_page: Call
     choosers: list[Any] = []
     page.on("filechooser", lambda chooser: choosers.append(chooser))
     for _ in range(20):  # the preview may draw the page again between the focus and the key
-        page.focus(".drop")
-        page.keyboard.press("Enter")
+        page.locator(".drop").press("Enter")
         page.wait_for_timeout(500)
         if choosers:
             break
     assert choosers
-    page.focus("a.step:has-text('Bodies')")
-    page.keyboard.press("Enter")
+    page.locator("a.step:has-text('Bodies')").press("Enter")
     page.wait_for_url("**/bodies")
     names = page.evaluate(
         "[...document.querySelectorAll('button')].filter(b => !b.innerText.trim() && "

@@ -134,8 +134,7 @@ def test_a_part_of_another_package_and_a_solved_contact(app: AppServer, open_pag
     page.click("[data-thumb=planes]")
     before = page.locator("[data-scene] output").all_inner_texts()
     for number in range(2):
-        sliders.nth(number).focus()
-        page.keyboard.press("ArrowRight" if number else "ArrowLeft")
+        sliders.nth(number).press("ArrowRight" if number else "ArrowLeft")
     page.wait_for_function(
         "before => JSON.stringify([...document.querySelectorAll('[data-scene] output')].map(e => e.innerText)) "
         "!== JSON.stringify(before)",
@@ -166,8 +165,7 @@ def test_the_spots_are_those_of_the_step_that_the_maps_show(app: AppServer, open
     assert first < steps, "the path ends without load"
     page.wait_for_selector(f"[data-spots] >> text=at step {first + 1} of {steps + 1}: mean pressure 50 MPa")
     before = page.locator("tr[data-spot]").count()
-    slider.focus()
-    page.keyboard.press("ArrowLeft")
+    slider.press("ArrowLeft")
     page.wait_for_selector(f"[data-spots] >> text=at step {first} of {steps + 1}: mean pressure 12.5 MPa", timeout=LONG)
     x, y = (float(part) for part in row.get_attribute("data-spot").split(","))
     found = page.evaluate(f"document.querySelector('[data-scene]').viewer.highlight({{ x: {x!r}, y: {y!r} }})")

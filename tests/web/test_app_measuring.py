@@ -175,8 +175,7 @@ def test_a_profile_with_cursors_on_an_inclined_plane(page: Any, plane: Path, tmp
     assert metres(found["Δz"]) == pytest.approx(SLOPE * metres(found["Δx"]), rel=1e-3)  # four digits are shown
     assert metres(found["height at B"]) - metres(found["height at A"]) == pytest.approx(metres(found["Δz"]), rel=2e-3)
     place = metres(value(page, "b"))
-    page.focus('[data-part="cursor-1"]')
-    page.keyboard.press("Shift+ArrowLeft")
+    page.locator('[data-part="cursor-1"]').press("Shift+ArrowLeft")
     assert -moved(page, "b", place) == pytest.approx(10.0 * SIDE / POINTS, rel=0.01)
     drag(page, "curve-surface", (metres(value(page, "b")) / 8e-6, 0.5), (0.95, 0.5))
     page.wait_for_function("parseFloat(document.querySelector('[data-measured=b]').value) > 7.4")
@@ -232,8 +231,7 @@ def test_regions_are_masked_with_the_mouse(page: Any) -> None:
     centre = [metres(text) for text in mask["regions"][1]["centre"]]
     assert centre == pytest.approx([2.5e-6, 2.5e-6], abs=10e-6 * pixel)
 
-    page.focus('[aria-label="remove ellipse 2 from the mask"]')
-    page.keyboard.press("Enter")
+    page.locator('[aria-label="remove ellipse 2 from the mask"]').press("Enter")
     page.wait_for_selector("[data-region='polygon 4']", state="detached")
     assert len(document(page)["surface"]["prepare"][0]["regions"]) == 3
     page.click("button[aria-label=undo]")
@@ -323,8 +321,7 @@ def test_a_line_scan_has_its_cursors_on_the_curve(page: Any, tmp_path: Path) -> 
     found = readings(page)
     assert metres(found["Δz"]) == pytest.approx(1e-4 * metres(found["Δx"]), rel=2e-3)
     before = metres(value(page, "a"))
-    page.focus('[data-measure="map-surface"] [data-part="cursor-0"]')
-    page.keyboard.press("ArrowRight")
+    page.locator('[data-measure="map-surface"] [data-part="cursor-0"]').press("ArrowRight")
     assert moved(page, "a", before) == pytest.approx(0.5e-6, rel=0.05)
     use(page, "range")
     drag(page, "map-surface", (0.4, 0.5), (0.6, 0.5))

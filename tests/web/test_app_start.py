@@ -56,8 +56,7 @@ def test_examples_stand_with_their_pictures(app: AppServer, open_page: Callable[
 @pytest.mark.parametrize("name", ["metal-seal", "flattened-metal"])
 def test_a_press_leads_to_the_result(app: AppServer, open_page: Callable[..., Any], name: str) -> None:
     page = begin(app, open_page)
-    page.focus(f"[data-example={name}]")
-    page.keyboard.press("Enter")
+    page.locator(f"[data-example={name}]").press("Enter")
     page.wait_for_url("**/explore?run=*", timeout=LONG)
     page.wait_for_selector("[data-ready]", timeout=LONG)
     assert load_document(name).title in page.inner_text(".bar")

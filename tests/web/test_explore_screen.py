@@ -96,15 +96,13 @@ def test_the_whole_page_is_one_screen_and_small_maps_are_live(app: AppServer, op
     picture = "(t) => t.querySelector('canvas').toDataURL()"
     before = {name: page.locator(f"[data-thumb={name}]").evaluate(picture) for name in ("pressure", "gap", "heights")}
     slider = page.locator("[data-slider=steps] input")
-    slider.focus()
-    page.keyboard.press("ArrowLeft")
+    slider.press("ArrowLeft")
     page.wait_for_timeout(SETTLED)
     after = {name: page.locator(f"[data-thumb={name}]").evaluate(picture) for name in before}
     assert [name for name in before if before[name] != after[name]] == ["pressure", "gap"]
 
     gap = page.locator("[data-thumb=gap]")
-    gap.focus()
-    page.keyboard.press("Enter")
+    gap.press("Enter")
     page.wait_for_selector(".av-panel[data-map=gap]:visible")
     expect(page.locator(".av-panel:not(.av-below):visible")).to_have_count(1)
     page.wait_for_selector("[data-thumb='gap']:focus")
@@ -129,8 +127,7 @@ def test_sentences_and_tables_are_folded_until_they_are_opened(app: AppServer, o
     expect(page.locator("[data-remedy]:visible, [data-choose]:visible, td:visible, .downloads:visible")).to_have_count(
         0
     )
-    page.locator("[data-verdicts] summary").focus()
-    page.keyboard.press("Enter")
+    page.locator("[data-verdicts] summary").press("Enter")
     assert not line.evaluate("e => e.scrollWidth > e.clientWidth")
 
 
@@ -168,13 +165,11 @@ def test_two_runs_share_colours_step_map_cross_and_view(app: AppServer, open_pag
     assert of(page, colours, 0) == of(page, colours, 1) == [shared[0], 1e9]
 
     slider = page.locator("[data-slider=steps] input").first
-    slider.focus()
-    page.keyboard.press("Home")
+    slider.press("Home")
     page.keyboard.press("ArrowRight")
     assert (of(page, "v.position.steps", 0), of(page, "v.position.steps", 1)) == (1, 1)
     page.locator("[data-together] input[name=steps]").uncheck()
-    page.locator("[data-slider=steps] input").nth(1).focus()
-    page.keyboard.press("ArrowRight")
+    page.locator("[data-slider=steps] input").nth(1).press("ArrowRight")
     assert (of(page, "v.position.steps", 0), of(page, "v.position.steps", 1)) == (1, 2)
     page.locator("[data-together] input[name=steps]").check()
     assert (of(page, "v.position.steps", 0), of(page, "v.position.steps", 1)) == (1, 1)

@@ -219,8 +219,7 @@ def test_the_section_line_moves_by_mouse_and_keyboard(report: Report, open_page:
     moved = viewer(page, "[...v.line]")
     assert moved[0] > start[0] + 0.05e-6
     assert moved[2:] == start[2:]
-    handle.focus()
-    page.keyboard.press("ArrowRight")
+    handle.press("ArrowRight")
     assert viewer(page, "v.line[0]") == pytest.approx(moved[0] + 25e-9, rel=1e-9)
     assert "x =" in handle.get_attribute("aria-valuetext")
     page.get_by_label("Section line", exact=False).first.focus()
@@ -242,8 +241,7 @@ def test_the_sliders_change_step_and_depth(report: Report, open_page: Open) -> N
         i, j = np.unravel_index(np.argmax(path.steps[number].pressure), path.last.pressure.shape)
         value, digit = shown(viewer(page, f"v.read({(i + 0.5) * dx}, {(j + 0.5) * dy})")["pressure"])
         assert abs(value - path.steps[number].pressure[i, j]) <= 0.61 * digit
-    slider.focus()
-    page.keyboard.press("ArrowRight")
+    slider.press("ArrowRight")
     assert viewer(page, "v.position.steps") == 2
     viewer(page, f"v.set('steps', {path.peak})")
     viewer(page, "v.show(['planes'])")
@@ -311,8 +309,7 @@ def test_a_map_is_read_and_zoomed_with_the_keyboard(report: Report, open_page: O
     page = opened(report, open_page)
     canvas = panel(page, "pressure").locator("canvas").first
     assert "Contact pressure" in canvas.get_attribute("aria-label")
-    canvas.focus()
-    page.keyboard.press("ArrowRight")
+    canvas.press("ArrowRight")
     viewer(page, "0")
     expect(page.locator(".av-live")).to_have_text(re.compile("^Pressure: "))
     page.keyboard.press("+")
