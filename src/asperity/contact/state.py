@@ -4,7 +4,7 @@ inputs."""
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Self
 
 import numpy as np
@@ -60,6 +60,20 @@ class InterfaceState:
                     f"{found.min():g}. Pass the state of an earlier result."
                 )
         require.not_negative(self.plastic_work, "plastic work (J) of an interface state")
+
+    @classmethod
+    def solved(
+        cls,
+        pressure: RealArray,
+        memory: Mapping[str, Memory],
+        earlier: RealArray | None = None,
+        deflections: Deflections | None = None,
+    ) -> Self:
+        """State of arrays that a solver has left: without the checks, which go over all of them."""
+        made = object.__new__(cls)
+        for item, value in zip(fields(cls), (pressure, memory, earlier, deflections), strict=True):
+            object.__setattr__(made, item.name, value)
+        return made
 
     @classmethod
     def dented(cls, permanent_indentation: RealArray, pressure: RealArray, plastic_work: float = 0.0) -> Self:

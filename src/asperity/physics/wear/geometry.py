@@ -72,6 +72,9 @@ def followed(problem: ContactProblem, depths: Doses, pressure: RealArray, now: T
     found = []
     for name, body in zip(SIDES, (problem.body, problem.counter_body), strict=True):
         before, whole = getattr(now, name), thickness(body)
+        if whole == 0.0:
+            found.append(before)
+            continue
         mean = mean_taken(getattr(depths, name), whole, pressure)
         if mean >= whole * (1.0 - _ROUNDING):
             mean = before = whole

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from .law import Sides, WearLaw
 
+_NONE = np.zeros(())
+"""No dose."""
+
 _KEPT = 3
 """Doses whose depths are kept: those at the begin of a step, at its end, and by an explicit one."""
 
@@ -21,15 +25,20 @@ _KEPT = 3
 @dataclass(frozen=True, eq=False)
 class Linearised:
     """By how much (m) the gap becomes wider under pressures near one: ``start`` + ``bed`` p +
-    ``track`` mean_x p, of which the first is (nx, ny) and the others as of ``WearOperator``."""
+    ``track`` mean_x p, of which the first is (nx, ny), or zero, and the others as of
+    ``WearOperator``."""
 
-    start: RealArray
+    start: RealArray | float
     bed: float | RealArray
     track: RealArray | None
 
     def depth(self, pressure: RealArray) -> RealArray:
         """Depth (nx, ny) in m under ``pressure`` (nx, ny) in Pa."""
-        found = self.start + self.bed * pressure
+        return self.start + self.beside(pressure)
+
+    def beside(self, pressure: RealArray) -> RealArray:
+        """The part of it in proportion to ``pressure``."""
+        found = self.bed * pressure
         return found if self.track is None else found + self.track * pressure.mean(axis=0)
 
 
@@ -102,6 +111,11 @@ class Losses:
             share = None if length is None else grid.size[0] / length
             made.append(None if law is None else Loss(law, share))
         return cls(made[0], made[1], grid, 0.0 if sides.debris is None else sides.debris.share)
+
+    @cached_property
+    def linear(self) -> bool:
+        """Whether depths are multiples of the doses of all bodies."""
+        return all(loss.law.linear for loss in (self.body, self.counter) if loss is not None)
 
     def wearing(self, *doses: Doses) -> Iterator[tuple[Loss, tuple[RealArray, ...]]]:
         """The losses of the bodies that wear, each with its part of all ``doses``."""
@@ -206,13 +220,14 @@ class Losses:
         begins with ``doses``, near ``pressure`` (nx, ny) in Pa."""
         bed: float | RealArray = 0.0
         track: RealArray | None = None
-        start = np.zeros(self.grid.shape)
+        start: RealArray | float = 0.0
         for loss, (first, begin) in self.wearing(before, doses):
-            end = begin + loss.exposure(pressure, slid)
-            slope = loss.slope(end, pressure, slid)
             if loss.law.linear:
+                slope = loss.slope(_NONE, pressure, slid)  # the same after any dose
                 start = start if begin is first else start + (loss.law.depth(begin) - loss.law.depth(first))
             else:
+                end = begin + loss.exposure(pressure, slid)
+                slope = loss.slope(end, pressure, slid)
                 beside = slope * (pressure if loss.share is None else pressure.mean(axis=0))
                 start = start + (loss.law.depth(end) - loss.law.depth(first) - beside)
             if loss.share is None:

@@ -387,7 +387,9 @@ class March:
             state,
             distance=state.distance + slid,
             doses=tried.doses,
-            interface=replace(result.state, earlier=at.result.pressure, deflections=_both(at.result, result)),
+            interface=InterfaceState.solved(
+                result.pressure, result.state.memory, at.result.pressure, _both(at.result, result)
+            ),
             length=length,
             misplaced=state.misplaced + tried.misplaced,
             carried=state.carried + result.force * slid,

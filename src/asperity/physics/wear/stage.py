@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -72,19 +72,18 @@ def implicit_stage(
     length of the stretch over the one before, in which pressures are extrapolated to start from.
     """
     guess, earlier = state.pressure, None
-    if ahead is not None and state.earlier is not None:
+    if ahead is not None and state.earlier is not None and not losses.linear:
         guess = np.maximum(guess + ahead * (guess - state.earlier), 0.0)
     pairs, slid = 0.0, stretch.slid
-    scale = float(np.ptp(prepared.profile)) or 1.0
+    scale = 1.0 if losses.linear else float(np.ptp(prepared.profile)) or 1.0
     model = losses.linearised(stretch.before, stretch.doses, guess, slid)
     for count in range(1, _MOST + 1):
-        touching = guess > 0.0
         least = None
-        if isinstance(model.bed, np.ndarray) and touching.any():
+        if isinstance(model.bed, np.ndarray) and (touching := guess > 0.0).any():
             least = float(model.bed[touching].min())
         operator = WearOperator(prepared.operator, model.bed, model.track, least)
         begun = _begun(state, model, operator)
-        hollow = model.start if model.start.any() else None
+        hollow = model.start if isinstance(model.start, np.ndarray) and model.start.any() else None
         settled = prepared.settled(
             step,
             begun,
@@ -97,12 +96,13 @@ def implicit_stage(
         own = found.solution.state
         pairs += own.applications * operator.pairs_per_application + own.extra_pairs
         pressure = found.pressure
-        plain = own.deflection - (model.depth(pressure) - model.start)
+        plain, status = own.deflection - model.beside(pressure), settled.status
+        if losses.linear or not status.converged:
+            break
         wanted = losses.hollow(losses.after(stretch.doses, pressure, slid)) - losses.hollow(stretch.before)
         miss = float(np.abs(wanted - model.depth(pressure)).max())
         enough = _AGREES * max(float(np.abs(wanted).max()), _AGREES * scale)
-        status = settled.status
-        if not status.converged or miss <= enough:
+        if miss <= enough:
             break
         following = losses.linearised(stretch.before, stretch.doses, pressure, slid)
         if count >= _CHORDS_FROM and earlier is not None:
@@ -122,7 +122,7 @@ def resumed(state: InterfaceState, pressure: RealArray, deflection: RealArray, o
     """``state`` with a ``pressure`` to start from, by which the bodies deflect as is known."""
     pairs = ((pressure, deflection),)
     known = Deflections(operator.compliance, operator.boundary, operator.grid, pairs, within=True)
-    return InterfaceState(pressure, state.memory, deflections=known)
+    return InterfaceState.solved(pressure, state.memory, deflections=known)
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,11 +143,11 @@ def _begun(state: InterfaceState, model: Linearised, operator: WearOperator) -> 
         plain = None if known is None or pressure is None else known.by(pressure, operator.whole)
         if pressure is None or plain is None:
             break
-        pairs.append((pressure, plain + model.depth(pressure) - model.start))
+        pairs.append((pressure, plain + model.beside(pressure)))
     if known is None or not pairs:
-        return replace(state, deflections=None, earlier=None)
+        return InterfaceState.solved(state.pressure, state.memory)
     found = Deflections(operator.compliance, operator.boundary, operator.grid, tuple(pairs), known.within)
-    return replace(state, deflections=found, earlier=state.earlier if len(pairs) > 1 else None)
+    return InterfaceState.solved(state.pressure, state.memory, state.earlier if len(pairs) > 1 else None, found)
 
 
 def _chords(model: Linearised, losses: Losses, stretch: Stretch, pressure: RealArray, other: RealArray) -> Linearised:
