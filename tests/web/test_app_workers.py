@@ -69,6 +69,29 @@ def test_a_worker_that_is_killed_or_cancelled_is_replaced(tmp_path: Path) -> Non
 
 
 @pytest.mark.slow
+def test_an_answer_that_nobody_waits_for_any_more_is_not_that_of_the_next_task(tmp_path: Path) -> None:
+    """A page that is closed gives up what it asked for; another one of the same session asks on."""
+
+    async def work() -> list[dict[str, Any]]:
+        worker, found = Worker(Limits.usual(), 1), []
+        task = preview(tmp_path)
+        try:
+            for points, delay in (("1000x1000", 0.0), ("2000x2000", 0.1), ("1000x1000", 1.0)):
+                call = asyncio.create_task(worker.call("surface", **preview(tmp_path, points=points)))
+                await asyncio.sleep(delay)
+                call.cancel()
+                found.append(await worker.call("surface", **task))
+            return found
+        finally:
+            await worker.end()
+            await asyncio.sleep(0.2)
+
+    with ThreadPoolExecutor(1) as thread:
+        answers = thread.submit(lambda: asyncio.run(work())).result()
+    assert [each["full"] for each in answers] == [[16, 16]] * 3
+
+
+@pytest.mark.slow
 def test_limits_of_memory_and_time_are_sentences(tmp_path: Path) -> None:
     large = preview(tmp_path, points="9000x9000")
     assert "memory" in answer(Limits(4e8, 60.0), large)[0]["error"].lower()

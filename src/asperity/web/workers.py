@@ -151,6 +151,9 @@ class Worker:
             self.limits.together.begins(self)
             try:
                 return await asyncio.wait_for(self._answer(function, task), self.limits.seconds)
+            except asyncio.CancelledError:
+                self._kill()  # what it would still answer would be taken for the answer to the next task
+                raise
             except TimeoutError:
                 self._kill()
                 return {"error": f"Stopped after {self.limits.seconds:g} s, the longest time of a task (--time-limit)."}
