@@ -160,7 +160,7 @@ def write_page_of_scans(
         advice=told.findings,
         headline=told.main_rows(),
         figures=shown(told.figures() if figures is None else figures),
-        tables=told.tables(),
+        tables=[(f"table-{n}", heading, table) for n, (heading, table) in enumerate(told.tables(), 1)],
         facts_rows=[(scan.name, _scan_text(scan.in_words()[1])) for scan in scans],
         provenance=software_rows(software(), **{scan.name: array_digest(scan.heights) for scan in scans}),
         citation_keys=told.citation_keys,
