@@ -247,6 +247,7 @@ class _Iteration:
         self.indentation: RealArray | float = 0.0
         self.attraction: RealArray | float = 0.0
         self.spent = 0, 0.0
+        self.foreseen: Loaded | None = None
 
     def settled(self) -> Settled:
         """Rounds until all couplings are settled by a solve to the full tolerance, or it must be
@@ -258,10 +259,12 @@ class _Iteration:
         if isinstance(alone, Foreseeing):
             # it may find the contact by a method of its own, from which rounds then start
             qp = self._posed()
-            found = alone.ahead(self.exchanges[alone.name], qp, self._start(qp), self.solver, self.watched)
+            found = alone.ahead(self.exchanges[alone.name], qp, self._start(qp), self._to(self.finest), self.watched)
             self.spent = found.iterations, found.pairs
             if found.exchange is not None:
                 self.exchanges[alone.name], tolerance = found.exchange, self.finest
+                if found.exchange.pressure is not None and found.deflection is not None:
+                    self.foreseen = Loaded(found.exchange.pressure, found.deflection)
         for count in range(1, self.rounds.most + 1):
             tolerance = self.finest if count == self.rounds.most else tolerance
             contact = self._solved(self._posed(), tolerance)
@@ -426,10 +429,7 @@ class _Iteration:
             status = Status(Outcome.CONVERGED, "Unloaded: nothing to solve.")
             solution = Solution(SolverState(none, none, 0.0), status, (0.0,))
         else:
-            solver, begun = self.solver, None
-            if solver.tolerance != tolerance and is_dataclass(solver):
-                settable: Any = {item.name for item in fields(solver) if item.init}
-                solver = replace(solver, tolerance=tolerance) if "tolerance" in settable else solver
+            solver, begun = self._to(tolerance), None
             posed = self.posed
             before = [pressure for pressure in (posed.start, posed.earlier) if pressure is not None]
             if isinstance(solver, ActiveSet) and self.last is None and not self.active:
@@ -440,6 +440,8 @@ class _Iteration:
                     begun = solver.extrapolated(qp, loads[0], loads[1], ratio)  # with its deflection
                 elif posed.deflections is not None and posed.deflections.within and len(loads) == 1:
                     begun = solver.resumed(qp, loads[0])
+            elif isinstance(solver, ActiveSet) and self.foreseen is not None:
+                begun, self.foreseen = solver.resumed(qp, self.foreseen), None
             solution = run(solver, qp, None if begun is not None else self._start(qp), self.watched, begun)
             error, asked = solution.state.error, self.solver.tolerance
             if solution.status.outcome is Outcome.STAGNATED and tolerance < error <= asked:
@@ -458,6 +460,14 @@ class _Iteration:
             self.pressures = [*self.pressures[-1:], contact.pressure]
         self.last = contact
         return contact
+
+    def _to(self, tolerance: float) -> Solver:
+        """The solver, to this ``tolerance`` where it can be set."""
+        solver = self.solver
+        if solver.tolerance == tolerance or not is_dataclass(solver):
+            return solver
+        settable: Any = {item.name for item in fields(solver) if item.init}
+        return replace(solver, tolerance=tolerance) if "tolerance" in settable else solver
 
     def _start(self, qp: ContactQP) -> RealArray | None:
         """Pressure that a coupling knows, else the last one, extrapolated in the load where that

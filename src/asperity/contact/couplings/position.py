@@ -13,9 +13,14 @@ from typing import ClassVar
 
 import numpy as np
 
+from ...core.arrays import RealArray
 from ...core.errors import NoSolutionError
+from ...core.status import Progress
 from ..controls import Approach, MeanGap
-from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+from ..solvers.active_set.level import LevelSearch
+from ..solvers.active_set.solver import ActiveSet
+from ..solvers.protocol import ContactQP, Solver
+from .protocol import Ahead, Contact, Coupling, Exchange, Memory, Posed, Share
 
 # What other values of the constants change: docs/develop/constants.md.
 
@@ -37,6 +42,9 @@ so that the noise leads no step astray."""
 _FINEST = 1e-10
 """Accuracy over the rms height that is asked of a normal solve at the finest, about the rounding of
 its gap."""
+
+_REACHED = 0.5
+"""Share of the miss that counts as none to which the load is found along with the pressure."""
 
 _LOOSE = 1e3
 """Errors within which a position counts as reached when the step left for the load is below what
@@ -152,6 +160,26 @@ class Position(Coupling):
         accuracy = max(_SOLVER_SHARE * min(size / posed.height_scale, 1.0), _FINEST)
         return Exchange(x, x, np.inf, accuracy=accuracy, note=_Note(touch, wanted, size))
 
+    def ahead(
+        self, exchange: Exchange, qp: ContactQP, start: RealArray | None, solver: Solver, progress: Progress
+    ) -> Ahead:
+        """The load is found along with the pressure where contacts can be moved."""
+        if not (isinstance(solver, ActiveSet) and LevelSearch.serves(solver, qp)):
+            return Ahead()
+        note, scale = exchange.note, qp.height_scale
+        level = note.wanted - note.touch - float(qp.profile.mean())
+
+        def towards(reached: float) -> float:
+            return float(np.clip(_step(note.wanted + reached - level, note.wanted, scale), -_FARTHEST, _FARTHEST))
+
+        search = LevelSearch(solver, qp, level, _REACHED * _allowed(note.size, scale, qp.profile), towards, progress)
+        found = search.found(start)
+        if found.at is None:
+            return Ahead(found.pairs, found.iterations)
+        x = np.asarray(np.log(float(found.at.pressure.mean())))
+        known = replace(exchange, x=x, target=x, pressure=found.at.pressure)
+        return Ahead(found.pairs, found.iterations, known, found.at.deflection)
+
     def share(self, exchange: Exchange) -> Share:
         """None: the driver poses the mean pressure exp(x)."""
         return Share()
@@ -168,19 +196,11 @@ class Position(Coupling):
         low = x if miss < -noise else note.low
         high = x if miss > noise else note.high
         note = replace(note, low=low, high=high, misses=(*note.misses[-2:], abs(miss)))
-        allowed = TARGET_ERROR * note.size + _HEIGHT_ERROR * min(posed.height_scale, _LARGEST_SHARE * note.size)
-        allowed += _ROUNDING * float(np.abs(posed.profile).max())
+        allowed = _allowed(note.size, posed.height_scale, posed.profile)
         if note.last is not None and note.last[1] != closeness:
             note = replace(note, slope=(x - note.last[0]) / (closeness - note.last[1]))
         note = replace(note, last=(x, closeness))
-        # step of the logarithm of the load by Persson's law, mean gap = -0.45 rms ln p + ..., or by
-        # proportionality at light loads
-        if closeness <= 0.0:
-            step = _FARTHEST
-        elif max(closeness, note.wanted) < _PERSSON * posed.height_scale / _LIGHT:
-            step = float(np.log(note.wanted / closeness)) / _LIGHT
-        else:
-            step = (note.wanted - closeness) / (_PERSSON * posed.height_scale)
+        step = _step(closeness, note.wanted, posed.height_scale)
         if self.nested and note.slope is not None and note.slope > 0.0:
             step = note.slope * (note.wanted - closeness)
         if abs(step) <= max(_CLOSED, 0.1 * self.tolerance) and abs(miss) <= _LOOSE * allowed:
@@ -221,6 +241,23 @@ class Position(Coupling):
                 "found"
             )
         return f"The prescribed position is still missed by {exchange.residual:.1e}"
+
+
+def _step(closeness: float, wanted: float, scale: float) -> float:
+    """Step of the logarithm of the load from a ``closeness`` to that ``wanted`` (m), heights having
+    the rms ``scale`` (m): by Persson's law, mean gap = -0.45 rms ln p + ..., or by proportionality
+    at light loads."""
+    if closeness <= 0.0:
+        return _FARTHEST
+    if max(closeness, wanted) < _PERSSON * scale / _LIGHT:
+        return float(np.log(wanted / closeness)) / _LIGHT
+    return (wanted - closeness) / (_PERSSON * scale)
+
+
+def _allowed(size: float, scale: float, profile: RealArray) -> float:
+    """Miss (m) of a position of this ``size`` that counts as none; ``scale``: rms height (m)."""
+    allowed = TARGET_ERROR * size + _HEIGHT_ERROR * min(scale, _LARGEST_SHARE * size)
+    return allowed + _ROUNDING * float(np.abs(profile).max())
 
 
 def without_bracket(exchange: Exchange) -> Exchange:

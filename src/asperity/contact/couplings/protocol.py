@@ -306,11 +306,13 @@ class Exchange:
 
 class Ahead(NamedTuple):
     """FFT ``pairs`` and ``iterations`` that a coupling has spent on the contact with its own
-    unknown, and its ``exchange`` if that has found it."""
+    unknown, and its ``exchange`` if that has found it; the ``deflection`` (nx, ny) in m by the
+    pressure of that, where it is at hand."""
 
     pairs: float = 0.0
     iterations: int = 0
     exchange: Exchange | None = None
+    deflection: RealArray | None = None
 
 
 Ended: TypeAlias = "tuple[Memory, object]"

@@ -335,6 +335,11 @@ class CpuEngine:
         self.blocks.run(self.blocks.kernels.beyond, out.size, late.ravel(), early.ravel(), ratio, out.ravel())
         return out
 
+    def move_on(self, late: RealArray, early: RealArray, ratio: float) -> None:
+        """late += ratio (late - early)."""
+        there = late.ravel()
+        self.blocks.run(self.blocks.kernels.beyond, there.size, there, early.ravel(), ratio, there)
+
     def add(self, field: RealArray, factor: float, values: RealArray) -> None:
         """values += factor field."""
         row, stride = field.shape[1], field.strides[0] // field.itemsize

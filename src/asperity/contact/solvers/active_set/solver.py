@@ -137,6 +137,10 @@ _POOR = 0.5
 """Error of a start above which one from coarser grids is better: that of another surface is about
 1."""
 
+_SLIGHT = 1e-3
+"""Tension over the load of an extrapolated start below which its tensile points, many of which bear
+next to nothing, do not count as a set that is not settled."""
+
 _SAME = 1e-12
 """Relative difference of two mean pressures that counts as rounding."""
 
@@ -299,22 +303,38 @@ class ActiveSet(Iterative):
         known = zip(*(load.known(qp) for load in (last, earlier)), strict=True)
         pressure, deflection = (engine.beyond(late, early, ratio) for late, early in known)
         work = Workspace.of(qp, self.precision, pressure, deflection)
-        survey = work.survey()
-        loaded = np.flatnonzero(pressure != 0.0)
-        values = pressure.ravel()[loaded]
-        negative = values[values < 0.0]
-        tension = -float(negative.sum())
-        error = relative_error(work, survey.totals) + tension / survey.totals.pressure
+        memory = _Memory(work, work.survey(), 0.0, clipped=1, unsuccessful=0)
+        memory.computed_at = error = _seek_tension(memory, engine)
         if error <= self.tolerance:  # only the product from scratch shows that
             return self._started(qp, Start(feasible_start(qp, pressure)), products + 1)
         if error > _POOR and min(qp.profile.shape) > COARSEST:
             return self._started(qp, nested_start(qp, self), products + 1)
-        tensile = None
-        if negative.size:
-            tensile = engine.points(qp.profile.shape, loaded, work.scaled.dtype)
-        clipped = max(1, negative.size)
-        memory = _Memory(work, survey, error, clipped=clipped, unsuccessful=0, tensile=tensile, tension=tension)
         memory.applications = products
+        return self._state(memory)
+
+    def moved(self, qp: ContactQP, state: SolverState, earlier: Loaded | None, ratio: float) -> SolverState | None:
+        """State beyond ``state`` by ``ratio`` times its difference from an ``earlier`` contact, or
+        from none, under the load of ``qp``, in the arrays of ``state``.
+
+        None where steps are clipped, and for other machines than the CPU.
+        """
+        given, load = state.memory, qp.constraint
+        assert isinstance(given, _Memory)
+        assert isinstance(load, FixedMean)
+        _require_latest(given)
+        engine = given.work.engine
+        if given.unsuccessful is None or not isinstance(engine, CpuEngine):
+            return None
+        given.superseded = True
+        work = replace(given.work, qp=qp, load=load.mean_pressure * qp.profile.size)
+        for number, field in enumerate((work.pressure, work.deflection)):
+            if earlier is None:
+                field *= 1.0 + ratio
+            else:
+                engine.move_on(field, earlier.known(qp)[number], ratio)
+        memory = replace(given, work=work, survey=work.survey(), superseded=False)
+        memory.lowest, memory.from_scratch = np.inf, False
+        _seek_tension(memory, engine)
         return self._state(memory)
 
     def resumed(self, qp: ContactQP, last: Loaded) -> SolverState | None:
@@ -550,6 +570,19 @@ class _Guess(ActiveSet):
     computed from scratch."""
 
     _guess: ClassVar[bool] = True
+
+
+def _seek_tension(memory: _Memory, engine: CpuEngine) -> float:
+    """Find the tensile points of an iterate beyond others; its error."""
+    work, total = memory.work, memory.survey.totals.pressure
+    loaded = np.flatnonzero(work.pressure != 0.0)
+    values = work.pressure.ravel()[loaded]
+    negative = values[values < 0.0]
+    memory.tension, memory.tensile = -float(negative.sum()), None
+    if negative.size:
+        memory.tensile = engine.points(work.qp.profile.shape, loaded, work.scaled.dtype)
+    memory.clipped = max(1, negative.size) if memory.tension > _SLIGHT * total else 1
+    return relative_error(work, memory.survey.totals) + memory.tension / total
 
 
 def _compute_from_scratch(memory: _Memory, total: float | None = None) -> None:
