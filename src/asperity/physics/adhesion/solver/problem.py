@@ -13,8 +13,10 @@ from functools import cached_property
 
 import numpy as np
 
+from ....contact.measure import Response
 from ....contact.operators import Operator
 from ....contact.operators.convolution import spectral_kernel
+from ....contact.solvers.active_set.linear_system import Stopping
 from ....contact.solvers.protocol import Constraint, FixedMean
 from ....core.arrays import BoolArray, RealArray
 from ....core.spectral import RealTransform
@@ -130,6 +132,11 @@ class Linearised:
         self._transform = RealTransform(problem.operator.grid.shape)
 
     @cached_property
+    def _walls(self) -> Response:
+        """Pressure that moves the points of the contact."""
+        return Response.of(self.operator, self.contact)
+
+    @cached_property
     def _inverse(self) -> RealArray:
         """1/c(q) on the half spectrum of the grid, the mean as the longest wave."""
         kernel: RealArray = spectral_kernel(self.operator.compliance, self.operator.grid)
@@ -144,20 +151,25 @@ class Linearised:
     def response(self, traction: RealArray, tolerance: float = _INNER) -> RealArray:
         """Change of the gap (nx, ny) in m by ``traction`` (nx, ny) in Pa on the free points, the
         contact staying closed."""
-        u = self._applied(traction)
-        if not self.contact.any():
-            if self.problem.load_prescribed:
-                u = u - u.mean()
-            return u
-        wall = np.zeros_like(u)
-        if self.problem.load_prescribed:
+        wall = np.zeros_like(traction)
+        if self.problem.load_prescribed and self.contact.any():
             wall[self.contact] = -traction.sum() / np.count_nonzero(self.contact)
-            u = u + self._applied(wall)
+        u = self._applied(traction + wall)
+        if not self.contact.any():
+            return u - u.mean() if self.problem.load_prescribed else u
         rigid, r = self._open(u, wall)
-        first = float(np.linalg.norm(r))
+        if not isinstance(self.soft, np.ndarray):  # a wall, with nothing beside the compliance
+            found = self._walls.solved(
+                r, zero_sum=self.problem.load_prescribed, stopping=Stopping(tolerance, _INNER_STEPS)
+            )
+            self.pairs += found.pairs
+            if found.values is not None:
+                u = u + self._applied(found.pressure)
+                return u + self._open(u, wall)[0]
+        first = float(np.sqrt((r * r).sum()))
         direction, before = np.zeros_like(r), 1.0
         for _ in range(_INNER_STEPS):
-            if first == 0.0 or np.linalg.norm(r) <= tolerance * first:
+            if first == 0.0 or np.sqrt((r * r).sum()) <= tolerance * first:
                 break
             self.pairs += 1.0
             z = self._transform.backward(self._transform.forward(r) * self._inverse)
@@ -193,9 +205,9 @@ class Linearised:
 
         if not self.free.any():
             return 0.0
-        v = self.root / np.linalg.norm(self.root)
+        v = self.root / np.sqrt((self.root * self.root).sum())
         v = v * (1.0 + 1e-3 * np.cos(np.arange(v.size, dtype=float)).reshape(v.shape))
-        v /= np.linalg.norm(v)
+        v /= np.sqrt((v * v).sum())
         basis = [v]
         diagonal: list[float] = []
         beside: list[float] = []
@@ -208,7 +220,7 @@ class Linearised:
             found = highest
             for earlier in basis:
                 w = w - float((w * earlier).sum()) * earlier
-            size = float(np.linalg.norm(w))
+            size = float(np.sqrt((w * w).sum()))
             if settled or size <= 1e-10 * abs(found):
                 break
             beside.append(size)

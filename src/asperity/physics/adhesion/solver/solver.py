@@ -132,18 +132,21 @@ class MajoriseMinimise(Stepwise):
         """
         strength, pixel = problem.law.strength, problem.operator.grid.pixel_area
         work = Work()
-        state = minimised(problem, pull, pressure, work)
+        accuracy = _FIRST
+        state = minimised(problem, pull, pressure, work, accuracy)
         energies, miss, newton_steps, rate = [problem.energy(state)], state.miss(strength), 0, 0.0
-        count = 1
-        while miss > self.tolerance and count < self.max_steps:
+        count, range_ = 1, problem.law.range / (float(problem.profile.std()) or 1.0)
+        while (miss > self.tolerance or accuracy > FINEST) and count < self.max_steps:
             count += 1
-            found = minimised(problem, state.attraction, state.pressure, work)
+            expected = _SHARE * (rate or _BEST) * miss * range_  # of the gap, over the rms height
+            accuracy = min(max(expected**2, FINEST), _FIRST) if miss > self.tolerance else FINEST
+            found = minimised(problem, state.attraction, state.pressure, work, accuracy)
             if self.newton and rate > _SLOW and count > 3:
                 proposed = self._newton(problem, found, work)
                 if proposed is not None and problem.energy(proposed) < problem.energy(found):
                     found, newton_steps = proposed, newton_steps + 1
             latest = found.miss(strength)
-            rate, miss = latest / miss, latest
+            rate, miss = latest / miss if miss > 0.0 else 0.0, latest
             state = found
             energies.append(problem.energy(state))
             if (
@@ -191,8 +194,12 @@ class Work:
     pairs: float = 0.0
 
 
-FINEST = 1e-13
-"""Error of the normal solves at the end."""
+FINEST, _FIRST = 1e-13, 1e-6
+"""Errors of the normal solves at the end, and at the beginning."""
+
+_SHARE, _BEST = 0.1, 0.1
+"""Error of the gap over the miss that is expected next, and how far that falls at best before it is
+known: the error of a normal solve goes with the square of that of the gap."""
 
 
 def minimised(
