@@ -108,6 +108,11 @@ class Waves:
     length: float
     modulus: float
 
+    @property
+    def summit_length(self) -> float:
+        """λ in m, rms gradient over rms curvature √(m2/m4): as wide as the smallest contacts."""
+        return self.rms / self.gradient * math.sqrt(1.5 / self.nayak)
+
     @classmethod
     def of(cls, spectrum: PowerSpectrum, body: Body, counter_body: Body = Rigid()) -> Self:
         """Sums over the modes of ``spectrum``."""
