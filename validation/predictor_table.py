@@ -25,7 +25,7 @@ import numpy as np
 
 import asperity as asp
 from asperity.generate import ExponentialAutocorrelation, RmsHeight, SelfAffine, gaussian, translated
-from asperity.studies.predict import Waves
+from asperity.physics.prediction.waves import Waves
 from asperity.theories.rough.predictor import HEIGHTS, MIDDLE, PERIMETER, Groups, predictor
 
 DATA = Path(asp.__file__).parent / "data" / "predictor"
@@ -243,13 +243,12 @@ def roots(surface: asp.Surface, solid: Any, thickness: float, pressure: float) -
     """Largest pressure, and largest √J₂ in the layer and in the base; ``thickness`` in m."""
     pixel = surface.grid.spacing[0]
     layer = [pixel * part for part in UNDER_SPOTS if pixel * part < thickness]
-    layer += [thickness * part for part in (0.1, 0.25, 0.5, 0.75, 0.9, 1.0)]
+    layer += [thickness * part for part in (0.1, 0.25, 0.5, 0.75, 0.9, 1.0)]  # the last is both sides of the interface
     base = [thickness + pixel * part for part in BELOW_INTERFACE]
     base += [thickness * (1.0 + part) for part in (0.15, 0.3, 0.6, 1.0)]
     result = asp.solve(asp.ContactProblem(surface, solid, law=HARD), asp.MeanPressure(pressure), keep=KEEP)
     found = {"peak": float(result.pressure.max()), "layer": 0.0, "base": 0.0, "pixels": result.area_fraction}
-    depths = np.unique(np.round(np.array([*layer, *base]), 15))
-    for field in asp.stresses.stress_planes(result, depths):
+    for field in asp.stresses.stress_planes(result, np.unique([*layer, *base])):
         key = "base" if field.planes[0].region.index else "layer"
         found[key] = max(found[key], float(field.sqrt_J2.max()))
     return found
@@ -282,6 +281,14 @@ def stressed() -> Iterator[dict[str, Any]]:
     cases = itertools.product(STRESS_GRIDS, STRESS_RATIOS, STRESS_THICKNESSES)
     seeds = range(FIRST_SEED, FIRST_SEED + STRESS_SEEDS)
     return stress_rows(((*grid, *other, NU, NU) for grid, *other in cases), STRESS_PRESSURES, seeds)
+
+
+def poisson_stresses() -> Iterator[dict[str, Any]]:
+    """Largest √J₂ at other Poisson's ratios, one of them at a time, on one grid and at one load."""
+    pairs = ((0.2, NU), (0.4, NU), (NU, 0.2), (NU, 0.4))
+    cases = itertools.product(STRESS_RATIOS, STRESS_THICKNESSES, pairs)
+    seeds = range(FIRST_SEED, FIRST_SEED + STRESS_SEEDS // 2)
+    return stress_rows(((128, 20.0, *other, *nu) for *other, nu in cases), (0.03,), seeds)
 
 
 def withheld_stresses() -> Iterator[dict[str, Any]]:
@@ -354,7 +361,7 @@ def write(name: str, rows: Iterable[dict[str, Any]], about: str) -> None:
     start = perf_counter()
     commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, text=True, check=True).stdout.strip()
     found = list(rows)
-    folder = DATA if name in ("master", "layer", "stress") else Path(__file__).parent / "predictor"
+    folder = DATA if name in ("master", "layer", "stress", "stress_poisson") else Path(__file__).parent / "predictor"
     folder.mkdir(exist_ok=True)
     with (folder / f"{name}.csv").open("w", encoding="utf-8", newline="\n") as file:
         file.write(
@@ -372,7 +379,9 @@ def main() -> None:
     """Write the tables that are asked for."""
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("--seeds", type=int, default=16)
-    asked.add_argument("--only", default="master,layer,stress,stress_withheld,withheld,several,capped,shaped")
+    asked.add_argument(
+        "--only", default="master,layer,stress,stress_poisson,stress_withheld,withheld,several,capped,shaped"
+    )
     given = asked.parse_args()
     makers = {
         "master": (
@@ -393,6 +402,7 @@ def main() -> None:
             "largest sqrt(J2) in a layer and in its base over the largest pressure, means over surfaces, and their "
             "relative standard deviations; thickness over rms gradient / rms curvature",
         ),
+        "stress_poisson": (poisson_stresses, "the same with Poisson's ratios other than 0.3"),
         "stress_withheld": (withheld_stresses, "the same of contacts that no fit has seen"),
     }
     for name in given.only.split(","):
