@@ -2,9 +2,9 @@
 Similar contacts have similar stresses
 ======================================
 
-Stresses below a coated rough surface, below the same with heights and load a tenth, and below one of
-twice the size (Peng 2001, figs 3.15 to 3.17): over E₂σ/β they are the same, and the largest lie in
-the bands that are predicted without solving.
+Stresses below a coated rough surface, below the same with heights and load a tenth, and below one
+of twice the size (Peng 2001, figs 3.15 to 3.17): over E₂σ/β they are the same, and the largest lie
+in the bands that are predicted without solving.
 """
 
 import matplotlib.pyplot as plt

@@ -28,16 +28,17 @@ def coated(ratio, thickness):
 # %%
 # Pressures along the line through the highest summit, over E₂σ/β. The stiff coating bears the load
 # on fewer summits with more pressure, the soft one on more with less; both the more, the thicker.
-figure, axes = plt.subplots(3, 1, figsize=(8, 9), layout="constrained")
-x, line = 1e6 * surface.x, int(np.unravel_index(np.argmax(surface.heights), grid.shape)[1])
+figure, axes = plt.subplots(3, 1, figsize=(9, 9), layout="constrained")
+x, line = 1e6 * grid.coordinates()[0][:, 0], int(np.unravel_index(np.argmax(surface.heights), grid.shape)[1])
 axes[0].plot(x, 1e9 * surface.heights[:, line], color="0.3", lw=0.8)
 axes[0].set(ylabel="height (nm)", xlim=(0.0, 20.0))
-for ratio, thickness in ((1.0, 1e-6), (2.0, 50e-9), (2.0, 1e-6), (0.5, 50e-9), (0.5, 1e-6)):
+cases = ((1.0, 1e-6), (2.0, 50e-9), (2.0, 1e-6), (0.5, 50e-9), (0.5, 1e-6))
+for place, (ratio, thickness) in enumerate(cases):
     pressure = asp.solve(asp.ContactProblem(surface, coated(ratio, thickness)), load).pressure[:, line]
     label = "E₁ = E₂" if ratio == 1.0 else f"E₁/E₂ = {ratio:g}, h = {thickness / beta:g} β"
-    axes[1].plot(x, pressure * beta / (E * sigma), lw=0.9, label=label)
-axes[1].set(xlabel="x (µm)", ylabel="p β/(E₂σ)", xlim=(0.0, 20.0))
-axes[1].legend(fontsize="small")
+    axes[1].plot(x, pressure * beta / (E * sigma) - 16.0 * place, lw=0.9)
+    axes[1].text(20.2, -16.0 * place, label, va="bottom")
+axes[1].set(xlabel="x (µm)", ylabel="p β/(E₂σ), 16 apart", xlim=(0.0, 20.0), yticks=[0.0, 8.0, 16.0])
 
 # %%
 # Force of menisci as high as the rms height, over that without a coating: lines are predicted, dots

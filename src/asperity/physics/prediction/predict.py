@@ -32,7 +32,7 @@ from ...theories.rough.predictor import (
     predictor,
 )
 from ...theories.rough.predictor_stress import UNKNOWN
-from .one_layer import one_layer
+from .one_layer import OneLayer, one_layer
 from .prediction import MEANING, Prediction
 from .waves import Rough, Waves
 from .yielding import Numbers, Part, largest_stresses, parts_of, unknown_parts, yield_factor, yield_loads
@@ -117,16 +117,7 @@ def predict(
     pressure = mean_pressure(control, used)
     require.positive(pressure, "mean pressure of a prediction (Pa)")
     one = one_layer(body, counter_body, waves.length, used)
-    base = Groups(
-        pressure / waves.full_contact,
-        pressure * waves.length / (waves.modulus * waves.rms * waves.stiffening),
-        waves.nayak,
-        math.sqrt(used.area) / waves.length,
-        used.n_points,
-        one.ratio,
-        one.thickness / waves.length,
-        one.thickness / waves.summit_length,
-    )
+    base = _groups(pressure, waves, used, one)
     groups, pulled = _with_pull(base, pressure, pull, waves)
     _require_inside(groups)
     _require_gaussian(surface)
@@ -166,6 +157,20 @@ def predict(
     )
     said = _findings(found, surface, alike, (body, counter_body), hardness)
     return replace(found, findings=(*said, *unknown_parts(one, groups, alike), *unsaid))
+
+
+def _groups(pressure: float, waves: Waves, grid: Grid, one: OneLayer) -> Groups:
+    """Groups of a contact under a mean ``pressure`` in Pa."""
+    return Groups(
+        pressure / waves.full_contact,
+        pressure * waves.length / (waves.modulus * waves.rms * waves.stiffening),
+        waves.nayak,
+        math.sqrt(grid.area) / waves.length,
+        grid.n_points,
+        one.ratio,
+        one.thickness / waves.length,
+        one.thickness / waves.summit_length,
+    )
 
 
 def _waves(surface: Rough, grid: Grid | None, body: Body, counter_body: Body) -> tuple[Waves, Grid]:

@@ -13,7 +13,7 @@ from ...solids.elastic import Elastic
 from ...solids.layers import Body, Layered
 from ...solids.strength import flow_stress
 from ...theories.rough.predictor import Expected, Groups
-from ...theories.rough.predictor_stress import UNKNOWN, in_half_space, stresses
+from ...theories.rough.predictor_stress import THINNEST, UNKNOWN, in_half_space, stresses
 from .one_layer import OneLayer
 
 Pressed: TypeAlias = tuple[Groups, Expected]
@@ -66,11 +66,11 @@ def parts_of(body: Body, counter_body: Body, one: OneLayer) -> tuple[Part, ...]:
     if one.error:
         return ()
     solids = [solid for solid in (body, counter_body) if isinstance(solid, Elastic | Layered)]
-    coated = next((solid for solid in solids if isinstance(solid, Layered) and solid.bare.layers), None)
+    coated = next((solid for solid in solids if isinstance(solid, Layered) and solid.reduced.layers), None)
     if coated is None:
-        bases = [solid.base if isinstance(solid, Layered) else solid for solid in solids]
+        bases = [solid.reduced.base if isinstance(solid, Layered) else solid for solid in solids]
         return tuple(_half_space(base) for base in bases if isinstance(base, Elastic))
-    layer, base = coated.bare.layers[0].material, coated.base
+    layer, base = coated.reduced.layers[0].material, coated.reduced.base
     assert isinstance(layer, Elastic)
     assert isinstance(base, Elastic)
     nu = layer.poisson_ratio, base.poisson_ratio
@@ -141,7 +141,7 @@ def _value(one: Expected) -> float:
 def _bears(part: Part, pressed: Pressed) -> bool:
     """Whether a ``part`` may be the first to yield: a base below a layer thicker than the table has
     bears less than a hundredth of it."""
-    return part.name != "base" or pressed[0].spots <= stresses().ends[1]
+    return part.name != "base" or pressed[0].spots <= stresses().thickest
 
 
 def onset(part: Part, pressed: Callable[[float], Pressed], ends: tuple[float, float]) -> Onset | None:
@@ -185,7 +185,7 @@ def unknown_parts(one: OneLayer, groups: Groups, alike: bool) -> Iterator[Advice
     """Why √J₂ of some part of a coated body is not given."""
     if math.isinf(groups.thickness):
         return
-    low, high = stresses().ends
+    low, high = THINNEST, stresses().thickest
     if one.error:
         fact = "√J₂ is not predicted of several layers: the table has one."
     elif not alike:
