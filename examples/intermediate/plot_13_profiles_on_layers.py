@@ -31,7 +31,7 @@ def coated(ratio, thickness):
 figure, axes = plt.subplots(3, 1, figsize=(9, 9), layout="constrained")
 x, line = 1e6 * grid.coordinates()[0][:, 0], int(np.unravel_index(np.argmax(surface.heights), grid.shape)[1])
 axes[0].plot(x, 1e9 * surface.heights[:, line], color="0.3", lw=0.8)
-axes[0].set(ylabel="height (nm)", xlim=(0.0, 20.0))
+axes[0].set(xlabel="x (µm)", ylabel="height (nm)", xlim=(0.0, 20.0))
 cases = ((1.0, 1e-6), (2.0, 50e-9), (2.0, 1e-6), (0.5, 50e-9), (0.5, 1e-6))
 for place, (ratio, thickness) in enumerate(cases):
     pressure = asp.solve(asp.ContactProblem(surface, coated(ratio, thickness)), load).pressure[:, line]
