@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import itertools
 import subprocess
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
@@ -24,7 +25,7 @@ import numpy as np
 
 import asperity as asp
 from asperity.generate import ExponentialAutocorrelation, RmsHeight, SelfAffine, gaussian, translated
-from asperity.studies.predict import Waves
+from asperity.physics.prediction.waves import Waves
 from asperity.theories.rough.predictor import HEIGHTS, MIDDLE, PERIMETER, Groups, predictor
 
 DATA = Path(asp.__file__).parent / "data" / "predictor"
@@ -214,21 +215,85 @@ def beside(label: str, grid: asp.Grid, spectrum: Any, solid: Any) -> Iterator[di
         yield row
 
 
-def stressed(seeds: int) -> Iterator[dict[str, float]]:
-    """Largest √J₂ beneath, over the largest pressure, on the half-space."""
-    for n, size in ((64, 10.0), (128, 10.0), (128, 20.0)):
-        waves = Waves.of_spectrum(grid_of(n, size), ExponentialAutocorrelation(RMS, BETA), body())
-        pixel = size / n * BETA
-        depths = pixel * np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 5.0])
-        for y in (0.002, 0.02, 0.2):
-            rows = []
-            for number in range(max(4, seeds // 2)):
-                problem = asp.ContactProblem(exponential(n, size, FIRST_SEED + number), body())
-                result = asp.solve(problem, asp.MeanPressure(y * waves.full_contact), keep=KEEP)
-                field = asp.stress(result, depths=depths)
-                largest = float(np.max(field.von_mises)) / np.sqrt(3.0)
-                rows.append({"sqrtJ2_over_peak": largest / float(result.pressure.max())})
-            yield {"points": n, "size": size, "pixel": size / n, "y": y} | averaged(rows)
+STRESS_GRIDS = (*LAYER_GRIDS, (64, 10.0), (128, 40.0))
+STRESS_RATIOS = (0.25, 0.5, 0.75, 1.0, 1.6, 2.8, 5.6)
+STRESS_THICKNESSES = (0.15, 0.35, 0.6, 0.9, 1.4, 2.2, 3.5, 6.0, 12.0, 30.0, 100.0)
+"""Thickness over λ, rms gradient over rms curvature of the surface."""
+
+STRESS_PRESSURES = (0.002, 0.015, 0.1, 0.7)
+STRESS_SEEDS = 4
+WITHHELD_STRESSES = tuple(
+    (n, size, ratio, thickness, *nu)
+    for n, size in ((96, 12.0), (160, 24.0), (224, 10.0))
+    for ratio, nu in (
+        *((0.3, (NU, NU)), (0.6, (0.35, 0.25)), (1.0, (NU, NU)), (1.7, (0.2, 0.4))),
+        *((2.6, (NU, NU)), (4.2, (0.22, 0.3))),
+    )
+    for thickness in (0.25, 0.75, 1.8, 5.0, 20.0, 60.0)
+)
+"""Points, side over β, E1/E2, thickness over λ and Poisson's ratios of contacts whose stresses no
+fit has seen."""
+
+UNDER_SPOTS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 5.0)
+BELOW_INTERFACE = (0.15, 0.3, 0.5, 0.8, 1.2, 2.0, 3.5)
+"""Depths in pixels from the surface and from the interface."""
+
+
+def roots(surface: asp.Surface, solid: Any, thickness: float, pressure: float) -> dict[str, float]:
+    """Largest pressure, and largest √J₂ in the layer and in the base; ``thickness`` in m."""
+    pixel = surface.grid.spacing[0]
+    layer = [pixel * part for part in UNDER_SPOTS if pixel * part < thickness]
+    layer += [thickness * part for part in (0.1, 0.25, 0.5, 0.75, 0.9, 1.0)]  # the last is both sides of the interface
+    base = [thickness + pixel * part for part in BELOW_INTERFACE]
+    base += [thickness * (1.0 + part) for part in (0.15, 0.3, 0.6, 1.0)]
+    result = asp.solve(asp.ContactProblem(surface, solid, law=HARD), asp.MeanPressure(pressure), keep=KEEP)
+    found = {"peak": float(result.pressure.max()), "layer": 0.0, "base": 0.0, "pixels": result.area_fraction}
+    for field in asp.stresses.stress_planes(result, np.unique([*layer, *base])):
+        key = "base" if field.planes[0].region.index else "layer"
+        found[key] = max(found[key], float(field.sqrt_J2.max()))
+    return found
+
+
+def stress_rows(cases: Iterable[tuple[Any, ...]], pressures: Sequence[float], seeds: range) -> Iterator[dict[str, Any]]:
+    """Largest √J₂ in layer and base over the largest pressure, means over surfaces, and their
+    relative standard deviations."""
+    spectrum = ExponentialAutocorrelation(RMS, BETA)
+    for n, size, ratio, thickness, *nu in cases:
+        grid = grid_of(n, size)
+        surfaces = [exponential(n, size, seed) for seed in seeds]
+        bare = Waves.of_spectrum(grid, spectrum, body())
+        h = thickness * bare.summit_length
+        materials = asp.Elastic(ratio * E, nu[0]), asp.Elastic(E, nu[1])
+        solid = asp.Layered([asp.Layer(materials[0], thickness=h)], base=materials[1])
+        waves = Waves.of_spectrum(grid, spectrum, solid)
+        for y in pressures:
+            found = averaged([roots(one, solid, h, y * waves.full_contact) for one in surfaces])
+            row = {"points": n, "size": size, "nayak": waves.nayak, "ratio": ratio, "thickness": thickness}
+            row |= {"nu1": nu[0], "nu2": nu[1], "y": y, "samples": len(surfaces)}
+            row |= {"pixels": found["pixels"] * grid.n_points, "peak": found["peak"] / waves.full_contact}
+            for key in ("layer", "base"):
+                row |= {key: found[key] / found["peak"], f"{key}_sd": found[f"{key}_sd"] / found[key]}
+            yield row
+
+
+def stressed() -> Iterator[dict[str, Any]]:
+    """Largest √J₂ in layers and below."""
+    cases = itertools.product(STRESS_GRIDS, STRESS_RATIOS, STRESS_THICKNESSES)
+    seeds = range(FIRST_SEED, FIRST_SEED + STRESS_SEEDS)
+    return stress_rows(((*grid, *other, NU, NU) for grid, *other in cases), STRESS_PRESSURES, seeds)
+
+
+def poisson_stresses() -> Iterator[dict[str, Any]]:
+    """Largest √J₂ at other Poisson's ratios, one of them at a time, on one grid and at one load."""
+    pairs = ((0.2, NU), (0.4, NU), (NU, 0.2), (NU, 0.4))
+    cases = itertools.product(STRESS_RATIOS, STRESS_THICKNESSES, pairs)
+    seeds = range(FIRST_SEED, FIRST_SEED + STRESS_SEEDS)
+    return stress_rows(((128, 20.0, *other, *nu) for *other, nu in cases), (0.03,), seeds)
+
+
+def withheld_stresses() -> Iterator[dict[str, Any]]:
+    """Other surfaces, grids, moduli, thicknesses and Poisson's ratios."""
+    return stress_rows(WITHHELD_STRESSES, (0.004, 0.05, 0.3), WITHHELD_SEEDS)
 
 
 CAPPED = (
@@ -296,7 +361,7 @@ def write(name: str, rows: Iterable[dict[str, Any]], about: str) -> None:
     start = perf_counter()
     commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, text=True, check=True).stdout.strip()
     found = list(rows)
-    folder = DATA if name in ("master", "layer") else Path(__file__).parent / "predictor"
+    folder = DATA if name in ("master", "layer", "stress", "stress_poisson") else Path(__file__).parent / "predictor"
     folder.mkdir(exist_ok=True)
     with (folder / f"{name}.csv").open("w", encoding="utf-8", newline="\n") as file:
         file.write(
@@ -314,7 +379,9 @@ def main() -> None:
     """Write the tables that are asked for."""
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("--seeds", type=int, default=16)
-    asked.add_argument("--only", default="master,layer,stress,withheld,several,capped,shaped")
+    asked.add_argument(
+        "--only", default="master,layer,stress,stress_poisson,stress_withheld,withheld,several,capped,shaped"
+    )
     given = asked.parse_args()
     makers = {
         "master": (
@@ -330,7 +397,13 @@ def main() -> None:
         "several": (several, "contacts with two and three layers, solved and predicted by the one nearest layer"),
         "capped": (capped, "contacts under a hardness over the rms pressure of full contact, beside the elastic ones"),
         "shaped": (shaped, "relative deviation of solved from predicted means of surfaces that are not Gaussian"),
-        "stress": (lambda: stressed(given.seeds), "largest sqrt(J2) over the largest pressure on a half-space, nu 0.3"),
+        "stress": (
+            stressed,
+            "largest sqrt(J2) in a layer and in its base over the largest pressure, means over surfaces, and their "
+            "relative standard deviations; thickness over rms gradient / rms curvature",
+        ),
+        "stress_poisson": (poisson_stresses, "the same with Poisson's ratios other than 0.3"),
+        "stress_withheld": (withheld_stresses, "the same of contacts that no fit has seen"),
     }
     for name in given.only.split(","):
         make, about = makers[name]

@@ -76,7 +76,7 @@ from .solids.viscoelastic import Viscoelastic as Viscoelastic
 from .studies.calibrate import calibrate as calibrate
 from .studies.compare import compare as compare
 from .studies.design.optimise import optimise as optimise
-from .studies.predict import predict as predict
+from .physics.prediction.predict import predict as predict
 from .surfaces.characterise.summary import characterise as characterise
 from .surfaces.prepare.extent import periodised as periodised
 from .surfaces.prepare.level import filled as filled

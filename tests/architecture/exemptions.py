@@ -111,6 +111,9 @@ CACHES: dict[str, str] = {
     "asperity.theories.rough.predictor.predictor": (
         "the tables do not change; reading and fitting them takes 20 ms, and each of a sweep of predictions needs them"
     ),
+    "asperity.theories.rough.predictor_stress.stresses": (
+        "the tables do not change; reading and fitting them takes 50 ms, and each of a sweep of predictions needs them"
+    ),
     "asperity.core.engine.blocks._compile_beside": "one process for all engines of a process, started at most once",
     "asperity.contact.solvers.active_set.spline_model.octaves": (
         "follows from the grid; 30 µs, and every grid of a solve, of 10 ms at 256², asks four times"

@@ -27,9 +27,10 @@ ONLY_FOR = {
     "asperity.report.tractions": ("stress",),
     "asperity.report.animation": ("indentation", "plastic_flow"),
     "asperity.report.animation_wear": ("wear",),
+    "asperity.cli.predict": ("prediction",),
 }
 """Modules outside the folders that serve some physics alone: loads without a contact, pictures of
-plastic zones."""
+plastic zones, commands."""
 
 NOT_YET = {
     "asperity.cli.results": "the command `stress` stands beside those on all results",

@@ -544,6 +544,32 @@ def test_predicted_scaling():
         assert slopes[light] == pytest.approx(0.9, abs=0.06)
 
 
+def test_similar_contacts():
+    """Stresses over E₂σ/β are the same under heights and loads a tenth and under twice the size;
+    the largest lies in the predicted band."""
+    left = run("intermediate/plot_12_similar_contacts")
+    first, *others = left.cases
+    for ratio in (2.0, 0.5):
+        for other in others:
+            np.testing.assert_allclose(left.curves[ratio, other], left.curves[ratio, first], rtol=1e-4)
+    low, high = (end / left.unit for end in left.predicted.max_sqrtJ2_layer.band)  # of the soft coating
+    assert low < left.curves[0.5, first].max() < high
+
+
+def test_profiles_on_layers():
+    """The force of menisci between that of a base of each material, solved and predicted."""
+    left = run("intermediate/plot_13_profiles_on_layers")
+    for ratio, ends in ((0.5, (1.0, 1.8)), (2.0, (0.5, 1.0))):
+        for coated, base in zip(left.forces[ratio, "coated"], left.forces[ratio, "base"], strict=True):
+            over = coated / base
+            assert np.all((over > ends[0]) & (over < ends[1]))
+            assert abs(np.log(over[-1])) > abs(np.log(over[0])) + 0.3
+        solved, predicted = (
+            of / base for of, base in zip(left.forces[ratio, "coated"], left.forces[ratio, "base"], strict=True)
+        )
+        assert predicted == pytest.approx(solved, rel=0.2)
+
+
 def test_pin_on_a_coated_disk():
     """Volumes by the forces; the track wears alike along it, and lasts longer than at its first
     width."""

@@ -15,10 +15,11 @@ from ..core.grid import Grid
 from ..core.units import parse, parse_size, show
 from ..io.atomic import require_new_file
 from ..io.tables import write_table
+from ..physics.prediction.predict import predict as predicted
+from ..physics.prediction.prediction import MEANING, Prediction
+from ..physics.prediction.waves import Rough
 from ..run.build import body_of_text
 from ..solids.elastic import Rigid
-from ..studies.predict import MEANING, Prediction, Rough
-from ..studies.predict import predict as predicted
 from ..surfaces.generate.autocorrelation import ExponentialAutocorrelation
 from ..surfaces.profile import Profile, no_area
 from .declared import FILE, Given, Option, offers

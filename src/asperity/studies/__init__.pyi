@@ -1,4 +1,6 @@
 from ..cli.press import press
+from ..physics.prediction.predict import predict
+from ..physics.prediction.prediction import Prediction
 from ..run.execute import Outcome
 from ..run.run import run
 from ..theories.rough.predictor import Expected
@@ -10,7 +12,6 @@ from .compare import compare
 from .comparison import Comparison
 from .design.answer import Design
 from .design.optimise import optimise
-from .predict import Prediction, predict
 
 __all__ = [
     "Calibration",

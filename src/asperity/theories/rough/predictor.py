@@ -37,10 +37,6 @@ PERIMETER = (math.pi - 1.0 + math.log(2.0)) / 24.0
 """Area in pixels between counted pixels and the contact, per edge between a pixel in contact and
 one outside (Yastrebov, Anciaux & Molinari 2017)."""
 
-SQRT_J2, SQRT_J2_ERROR = 0.341, 0.02
-"""Largest √J₂ below a half-space with ν = 0.3 over the largest pressure of a pixel, and the
-relative error that covers loads and pixels."""
-
 SLACK = 0.03
 """Share by which groups may leave the ranges of the table: those of one pixel differ so much with
 the size of the map."""
@@ -128,6 +124,8 @@ class Groups:
         Side over the 10 % length; pixels of the whole map.
     ratio, thickness
         E1/E2 of a layer, 1 without one, and its thickness over the 10 % length.
+    spots
+        The thickness over λ, rms gradient over rms curvature of the surface.
     """
 
     y: float
@@ -137,6 +135,7 @@ class Groups:
     points: int
     ratio: float = 1.0
     thickness: float = math.inf
+    spots: float = math.inf
 
 
 @dataclass(frozen=True)
@@ -178,14 +177,14 @@ def _terms(variables: RealArray, powers: Powers) -> RealArray:
     return np.stack([np.prod(variables ** np.array(power), axis=1) for power in powers], axis=1)
 
 
-def _up_to(degrees: tuple[int, ...], total: int) -> Powers:
+def up_to(degrees: tuple[int, ...], total: int) -> Powers:
     """Exponents of monomials: each at most its own of the ``degrees``, their sum at most
     ``total``."""
     return tuple(power for power in np.ndindex(*(degree + 1 for degree in degrees)) if sum(power) <= total)
 
 
 def table(name: str) -> list[dict[str, float]]:
-    """Rows of the table ``name``: ``master`` or ``layer``."""
+    """Rows of the table ``name``: ``master``, ``layer``, ``stress`` or ``stress_poisson``."""
     text = resources.files("asperity").joinpath("data", "predictor", f"{name}.csv").read_text(encoding="utf-8")
     lines = [line for line in text.splitlines() if not line.startswith("#")]
     return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
@@ -263,21 +262,21 @@ class Predictor:
             area = column[name][used]
             slope = np.log(2.0 / math.sqrt(math.pi) * special.erfinv(area) / column["y"][used])
             curves[name] = Curve.fitted(
-                at[used, :2], slope, np.hypot(error[name][used] / area, 0.005), _up_to((4, 2), 4)
+                at[used, :2], slope, np.hypot(error[name][used] / area, 0.005), up_to((4, 2), 4)
             )
             scatters[name] = _scatter(at[used], column[f"{name}_sd"][used] / area)
         peak, gap = column["peak"], column["gap"]
-        curves["peak"] = Curve.fitted(at, np.log(peak), np.hypot(error["peak"] / peak, 0.01), _up_to((3, 2, 1), 3))
+        curves["peak"] = Curve.fitted(at, np.log(peak), np.hypot(error["peak"] / peak, 0.01), up_to((3, 2, 1), 3))
         scatters["peak"] = _scatter(at, column["peak_sd"] / peak)
         of_load = np.stack([np.log10(column["X"]), at[:, 1]], axis=1)
-        curves["gap"] = Curve.fitted(of_load, gap, np.hypot(error["gap"], 0.01), _up_to((5, 2), 5))
+        curves["gap"] = Curve.fitted(of_load, gap, np.hypot(error["gap"], 0.01), up_to((5, 2), 5))
         scatters["gap"] = _scatter(at, column["gap_sd"])
         of_gap = np.stack([gap, at[:, 1]], axis=1)
         for height in HEIGHTS:
             share = column[f"below_{height:g}"] / (1.0 - column["area_pixels"])
             used = (share > 1e-4) & (share < 1.0 - 1e-4) & (gap > LEAST_GAP)
             even = np.ones(int(used.sum()))
-            curves[_below(height)] = Curve.fitted(of_gap[used], special.ndtri(share[used]), even, _up_to((5, 2), 5))
+            curves[_below(height)] = Curve.fitted(of_gap[used], special.ndtri(share[used]), even, up_to((5, 2), 5))
         return cls(curves, scatters, Factors.of(layer), _ranges(column, layer), float(np.median(column["samples"])))
 
     def outside(self, groups: Groups) -> list[tuple[Range, float]]:
@@ -382,7 +381,7 @@ def _variables(y: float, nayak: float, size: float) -> tuple[float, float, float
 
 def _scatter(variables: RealArray, values: RealArray) -> Curve:
     """Curve of the logarithm of standard deviations from surface to surface."""
-    return Curve.fitted(variables, np.log(np.maximum(values, 1e-4)), np.ones(values.size), _up_to((2, 1, 1), 2))
+    return Curve.fitted(variables, np.log(np.maximum(values, 1e-4)), np.ones(values.size), up_to((2, 1, 1), 2))
 
 
 LARGEST_SIZE = 160.0

@@ -3,52 +3,39 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Self, TypeAlias
+from functools import cached_property
 
-import numpy as np
-
-from ..contact.controls import Force, MeanPressure, mean_pressure
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..core.grid import Grid
-from ..core.quantity import Quantity
-from ..core.spectral import RealTransform, mode_sum, thread_count
-from ..core.status import Advice
-from ..core.words import in_words
-from ..solids.compliance.halfspace import contact_compliance
-from ..solids.elastic import Elastic, Rigid
-from ..solids.layers import Body, Layered, contact_modulus, weaker_strength
-from ..surfaces.characterise.correlation import DROP_TENTH, autocovariance
-from ..surfaces.characterise.heights import height_parameters
-from ..surfaces.characterise.spectrum import PowerSpectrum, power_spectrum
-from ..surfaces.generate.autocorrelation import ExponentialAutocorrelation
-from ..surfaces.generate.gaussian import Spectrum
-from ..surfaces.prepare.level import filled
-from ..surfaces.surface import Surface
-from ..theories.rough.predictor import (
+from ...contact.controls import Force, MeanPressure, mean_pressure
+from ...core import require
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ...core.status import Advice
+from ...core.words import in_words
+from ...solids.elastic import Elastic, Rigid
+from ...solids.layers import Body, weaker_strength
+from ...surfaces.characterise.heights import height_parameters
+from ...surfaces.generate.autocorrelation import ExponentialAutocorrelation
+from ...surfaces.surface import Surface
+from ...theories.rough.predictor import (
     CAPPED_GAP,
     CAPPED_RANGE,
     HEIGHTS,
     LEAST_GAP,
     LEAST_PIXELS,
     MOST_CAPPED,
-    SQRT_J2,
-    SQRT_J2_ERROR,
     Expected,
     Groups,
     capped,
     of_shape,
     predictor,
 )
-from .one_layer import one_layer
-
-Rough: TypeAlias = Surface | Spectrum
-"""A measured or generated map, or the spectrum of surfaces that have not been made."""
-
-LEAST_PROPORTION, LARGEST_PROPORTION = 0.5, 2.0
-"""Ratio of the 10 % lengths along x and y between which a surface counts as isotropic."""
+from ...theories.rough.predictor_stress import UNKNOWN
+from .one_layer import OneLayer, one_layer
+from .prediction import MEANING, Prediction
+from .waves import Rough, Waves
+from .yielding import Numbers, Part, largest_stresses, parts_of, unknown_parts, yield_factor, yield_loads
 
 LIKENESS = 1.25
 """Factor by which bandwidth and gradient may differ from those of an exponential autocorrelation of
@@ -66,194 +53,6 @@ of 3.5 a fifth."""
 ROUNDS, SETTLED = 50, 1e-6
 """Rounds in which a pull is added to the load, and the relative change that ends
 them."""
-
-MEANING = {
-    "y": "mean pressure / rms pressure of full contact",
-    "X": "mean pressure × 10 % length / (modulus × rms height × ε)",
-    "nayak": "bandwidth α",
-    "nayak, layered": "bandwidth α of a surface on a layered body",
-    "size": "side / 10 % length",
-    "ratio": "modulus of the layer / that of its base",
-    "thickness": "thickness of the layer / 10 % length",
-}
-"""Groups in words."""
-
-
-@dataclass(frozen=True)
-class Waves:
-    """Sums over the waves of a rough surface and the compliance of the bodies that it presses on.
-
-    Attributes
-    ----------
-    full_contact
-        s in Pa, rms pressure of full contact, s² = Σ |h|²/c².
-    stiffening
-        ε, mean of c_base/c with the weights |h|² q^(-1/2)/c_base; 1 on a half-space.
-    rms, gradient
-        Rms height in m, and rms of the gradient.
-    nayak
-        Bandwidth α = m0 m4/m2².
-    length
-        10 % length β in m, the mean of those along x and y; NaN if the correlation does not fall so
-        far.
-    modulus
-        Contact modulus in Pa of the half-spaces below the layers.
-    """
-
-    full_contact: float
-    stiffening: float
-    rms: float
-    gradient: float
-    nayak: float
-    length: float
-    modulus: float
-
-    @classmethod
-    def of(cls, spectrum: PowerSpectrum, body: Body, counter_body: Body = Rigid()) -> Self:
-        """Sums over the modes of ``spectrum``."""
-        grid = spectrum.grid
-        q = grid.wavenumber()
-        q[0, 0] = q[-1, -1]  # any wavenumber: the mean has no share
-        psd = spectrum.psd.copy()
-        psd[0, 0] = 0.0
-        m0, m2, m4 = (mode_sum(grid, psd * q**order) for order in (0, 2, 4))
-        if not m0 > 0.0:
-            raise InputError("surface of a prediction must be rough, but is flat.")
-        compliance = contact_compliance(body, counter_body).spectral(q)
-        modulus = contact_modulus(_base(body), _base(counter_body))
-        weights = psd / np.sqrt(q)
-        return cls(
-            full_contact=math.sqrt(mode_sum(grid, psd / np.square(compliance))),
-            stiffening=mode_sum(grid, weights / compliance) / mode_sum(grid, 0.5 * modulus * q * weights),
-            rms=math.sqrt(m0),
-            gradient=math.sqrt(m2),
-            nayak=1.5 * m0 * m4 / m2**2,  # m2 and m4 of profiles are 1/2 and 3/8 of these sums
-            length=_length(grid, psd),
-            modulus=modulus,
-        )
-
-    @classmethod
-    def of_spectrum(cls, grid: Grid, spectrum: Spectrum, body: Body, counter_body: Body = Rigid()) -> Self:
-        """Sums expected of surfaces with the ``spectrum`` on a ``grid``."""
-        found = cls.of(PowerSpectrum(grid, spectrum.lattice_psd(grid), "none"), body, counter_body)
-        if not isinstance(spectrum, ExponentialAutocorrelation):
-            return found
-        # as it is without the removal of the mean from maps of finite size
-        return replace(found, length=_isotropic(*(math.log(10.0) * decay for decay in spectrum.decay_lengths)))
-
-    @classmethod
-    def of_surface(cls, surface: Surface, body: Body, counter_body: Body = Rigid()) -> Self:
-        """Sums of a map, of a measured one with a Hann window; missing points are filled."""
-        whole = filled(surface) if surface.n_missing else surface
-        found = cls.of(power_spectrum(whole), body, counter_body)
-        covariance = autocovariance(surface)
-        lengths = [covariance.correlation_length(DROP_TENTH, axis=axis, logarithmic=True) for axis in ("x", "y")]
-        return replace(found, length=_isotropic(*lengths))
-
-
-def _base(body: Body) -> Any:
-    return body.base if isinstance(body, Layered) else body
-
-
-def _length(grid: Grid, psd: RealArray) -> float:
-    """10 % length of the autocovariance that belongs to the spectrum ``psd``."""
-    covariance = RealTransform(grid.shape, thread_count()).backward(psd.astype(complex))
-    lengths = []
-    for values, pixel in ((covariance[:, 0], grid.spacing[0]), (covariance[0], grid.spacing[1])):
-        below = np.flatnonzero(values <= DROP_TENTH * values[0])
-        if below.size == 0:
-            return math.nan
-        after = int(below[0])
-        high, low, level = float(values[after - 1]), float(values[after]), DROP_TENTH * float(values[0])
-        share = math.log(high / level) / math.log(high / low) if low > 0.0 else (high - level) / (high - low)
-        lengths.append(pixel * (after - 1 + share))
-    return _isotropic(*lengths)
-
-
-def _isotropic(along_x: float, along_y: float) -> float:
-    """Mean of two lengths, which must be about the same."""
-    if not math.isfinite(along_x + along_y):
-        raise InputError(
-            "autocorrelation of the surface must fall to 10 % within the map for a prediction, but does "
-            "not. Level the surface, take a larger map, or solve it."
-        )
-    if not LEAST_PROPORTION <= along_x / along_y <= LARGEST_PROPORTION:
-        raise InputError(
-            f"surface of a prediction must be isotropic, but its 10 % lengths are {along_x:.3g} m along x and "
-            f"{along_y:.3g} m along y. Solve it: {in_words('{solve}')}."
-        )
-    return 0.5 * (along_x + along_y)
-
-
-@dataclass(frozen=True)
-class Prediction:
-    """What a contact is expected to be, without solving it.
-
-    Each number is an ``Expected``: mean over surfaces of the same statistics, standard error of
-    that mean, standard deviation from one surface to the next, and ``band`` of both.
-
-    Attributes
-    ----------
-    area_fraction
-        Real contact area over nominal area, freed of the size of the pixels by the perimeter
-        (Yastrebov, Anciaux & Molinari 2017). ``area_fraction_corrected`` of a result finds the
-        edges between pixels instead.
-    area_fraction_pixels
-        Pixels in contact over all: ``area_fraction`` of a result.
-    peak_pressure
-        Largest pressure of a pixel in Pa; an extreme value, for which the band says more than the
-        mean.
-    mean_gap
-        In m; NaN, as the counted pixels, of surfaces without an exponential autocorrelation, and
-        where much of the contact is at the hardness.
-    max_sqrtJ2
-        Largest √J₂ below the surface in Pa; NaN of layered bodies and at the hardness.
-    yield_factor
-        Factor on ``max_sqrtJ2`` at which the body first yields, Y/(√3 √J₂); NaN where the yield
-        stress is not known.
-    pull_pressure
-        Pull over nominal area in Pa, added to the load; NaN where nothing pulls.
-    pressure
-        Mean pressure in Pa that is prescribed.
-    groups
-        The groups y, X, α, size, and those of a layer, by which the table is read.
-    waves
-        Sums over the waves of the surface, among them the rms pressure of full contact.
-    findings
-        What should be known before the numbers are used.
-    """
-
-    area_fraction: Expected
-    area_fraction_pixels: Expected
-    peak_pressure: Expected
-    mean_gap: Expected
-    max_sqrtJ2: Expected
-    yield_factor: Expected
-    pull_pressure: Expected
-    pressure: float
-    groups: Groups
-    waves: Waves
-    findings: tuple[Advice, ...] = ()
-    citation_keys: ClassVar[tuple[str, ...]] = ("Nayak1971", "Peng2001", "Yastrebov2017")
-
-    def values(self) -> list[tuple[Quantity, Expected]]:
-        """Every number that is known, with name, unit and label."""
-        found = [(quantity, getattr(self, quantity.name)) for quantity in QUANTITIES]
-        return [(quantity, value) for quantity, value in found if math.isfinite(value.value)]
-
-
-QUANTITIES = (
-    Quantity("area_fraction", "1", "real contact area / nominal area"),
-    Quantity("area_fraction_pixels", "1", "pixels in contact / all pixels"),
-    Quantity("peak_pressure", "Pa", "largest pressure of a pixel"),
-    Quantity("mean_gap", "m", "mean gap"),
-    Quantity("max_sqrtJ2", "Pa", "largest √J₂ below the surface"),
-    Quantity("yield_factor", "1", "factor at which the body first yields"),
-    Quantity("pull_pressure", "Pa", "pull / nominal area"),
-)
-"""Numbers of a prediction, in their order."""
-
-UNKNOWN = Expected(math.nan, math.nan, math.nan)
 
 
 def predict(
@@ -317,16 +116,8 @@ def predict(
     waves, used = _waves(surface, grid, body, counter_body)
     pressure = mean_pressure(control, used)
     require.positive(pressure, "mean pressure of a prediction (Pa)")
-    ratio, thickness, of_layers = one_layer(body, counter_body, waves.length, used)
-    base = Groups(
-        pressure / waves.full_contact,
-        pressure * waves.length / (waves.modulus * waves.rms * waves.stiffening),
-        waves.nayak,
-        math.sqrt(used.area) / waves.length,
-        used.n_points,
-        ratio,
-        thickness / waves.length,
-    )
+    one = one_layer(body, counter_body, waves.length, used)
+    base = _groups(pressure, waves, used, one)
     groups, pulled = _with_pull(base, pressure, pull, waves)
     _require_inside(groups)
     _require_gaussian(surface)
@@ -336,28 +127,50 @@ def predict(
             "surface must have an exponential autocorrelation for a prediction with a pull, but has another. "
             f"Solve it: {in_words('{solve}')}."
         )
-    unlike = math.hypot(0.0 if alike else UNLIKE, of_layers)
-    area, pixels, peak, gap = _elastic(groups, surface, alike, unlike)
-    peak = peak.times(waves.full_contact)
+    read = _Read(surface, waves, alike, math.hypot(0.0 if alike else UNLIKE, one.error))
+    area, pixels, peak, gap = read.elastic(groups)
     elastic = peak
     if hardness is not None:
         u = _hard(hardness, pressure, groups, pull)
         area, pixels, peak = capped(area, u, "area"), capped(pixels, u, "area_pixels"), peak.below(hardness)
         gap = gap if u <= CAPPED_GAP else UNKNOWN
-    largest = peak.times(SQRT_J2, SQRT_J2_ERROR) if ratio == 1.0 and peak == elastic else UNKNOWN
+    parts = parts_of(body, counter_body, one) if alike or math.isinf(one.thickness) else ()
+    here, capped_there = (groups, elastic), peak != elastic
+    largest = Numbers() if capped_there else largest_stresses(parts, here)
+    loads, unsaid = read.yield_loads(groups, parts) if pull is None else (Numbers(), [])
     found = Prediction(
         area_fraction=area,
         area_fraction_pixels=pixels,
         peak_pressure=peak,
         mean_gap=gap.times(waves.rms),
-        max_sqrtJ2=largest,
-        yield_factor=_yield_factor(largest, body, counter_body),
+        max_sqrtJ2=largest.first,
+        max_sqrtJ2_layer=largest.layer,
+        max_sqrtJ2_base=largest.base,
+        yield_factor=UNKNOWN if capped_there else yield_factor(parts, here),
+        yield_load=loads.first,
+        yield_load_layer=loads.layer,
+        yield_load_base=loads.base,
         pull_pressure=pulled,
         pressure=pressure,
         groups=groups,
         waves=waves,
     )
-    return replace(found, findings=_findings(found, surface, alike, (body, counter_body), hardness))
+    said = _findings(found, surface, alike, (body, counter_body), hardness)
+    return replace(found, findings=(*said, *unknown_parts(one, groups, alike), *unsaid))
+
+
+def _groups(pressure: float, waves: Waves, grid: Grid, one: OneLayer) -> Groups:
+    """Groups of a contact under a mean ``pressure`` in Pa."""
+    return Groups(
+        pressure / waves.full_contact,
+        pressure * waves.length / (waves.modulus * waves.rms * waves.stiffening),
+        waves.nayak,
+        math.sqrt(grid.area) / waves.length,
+        grid.n_points,
+        one.ratio,
+        one.thickness / waves.length,
+        one.thickness / waves.summit_length,
+    )
 
 
 def _waves(surface: Rough, grid: Grid | None, body: Body, counter_body: Body) -> tuple[Waves, Grid]:
@@ -392,12 +205,17 @@ def _require_inside(groups: Groups) -> None:
         elif limits.high == math.inf:
             ends = f"at least {limits.low:.3g}"
         raise InputError(f"{MEANING[limits.name]} must be {ends} for a prediction, but is {value:.3g}. {solve}")
-    pixels = predictor().area(groups, "area_pixels").value * groups.points
+    pixels = _pixels(groups)
     if pixels < LEAST_PIXELS:
         raise InputError(
             f"pixels in contact must be at least {LEAST_PIXELS:g} for a prediction, but {pixels:.2g} are "
             f"expected. Raise the load or enlarge the surface, or solve several surfaces: {in_words('{solve}')}."
         )
+
+
+def _pixels(groups: Groups) -> float:
+    """Number of pixels in contact that is expected."""
+    return predictor().area(groups, "area_pixels").value * groups.points
 
 
 def _exponential(waves: Waves, grid: Grid) -> bool:
@@ -463,29 +281,57 @@ def _with_pull(
     )
 
 
-def _yield_factor(largest: Expected, body: Body, counter_body: Body) -> Expected:
-    """Factor on the largest √J₂ at which the weaker body yields."""
-    strength = weaker_strength(body, counter_body).get("yield_stress", math.nan)
-    if not math.isfinite(strength * largest.value):
-        return UNKNOWN
-    factor = strength / math.sqrt(3.0) / largest.value
-    return Expected(factor, factor * largest.error / largest.value, factor * largest.scatter / largest.value)
+@dataclass(frozen=True)
+class _Read:
+    """Reads elastic contacts of one surface from the table: whether it is ``alike`` one with an
+    exponential autocorrelation, and the relative standard error ``unlike`` of others and of several
+    layers."""
 
+    surface: Rough
+    waves: Waves
+    alike: bool
+    unlike: float
 
-def _elastic(groups: Groups, surface: Rough, alike: bool, unlike: float) -> tuple[Expected, ...]:
-    """Area, counted area, largest pressure over s and gap over the rms height of an elastic
-    contact, with the relative standard error ``unlike`` of other surfaces and several layers."""
-    read = predictor()
-    found = {
-        "area": read.area(groups).times(1.0, unlike),
-        "area_pixels": read.area(groups, "area_pixels").times(1.0, unlike) if alike else UNKNOWN,
-        "peak": read.peak(groups).times(1.0, unlike),
-        "gap": read.gap(groups) if alike else UNKNOWN,
-    }
-    if isinstance(surface, Surface):
-        skewness, kurtosis = _shape(surface)
-        found = {name: of_shape(one, groups.y, skewness, kurtosis - 3.0, name) for name, one in found.items()}
-    return tuple(found.values())
+    def elastic(self, groups: Groups) -> tuple[Expected, Expected, Expected, Expected]:
+        """Area, counted area, largest pressure in Pa and gap over the rms height."""
+        read, unlike = predictor(), self.unlike
+        area = self._shaped(read.area(groups).times(1.0, unlike), groups, "area")
+        pixels = read.area(groups, "area_pixels").times(1.0, unlike) if self.alike else UNKNOWN
+        gap = read.gap(groups) if self.alike else UNKNOWN
+        pixels, gap = self._shaped(pixels, groups, "area_pixels"), self._shaped(gap, groups, "gap")
+        return area, pixels, self.peak(groups), gap
+
+    def peak(self, groups: Groups) -> Expected:
+        """Largest pressure in Pa."""
+        found = self._shaped(predictor().peak(groups).times(1.0, self.unlike), groups, "peak")
+        return found.times(self.waves.full_contact)
+
+    def _shaped(self, found: Expected, groups: Groups, name: str) -> Expected:
+        """``found`` with the error of heights that are not Gaussian."""
+        if not isinstance(self.surface, Surface):
+            return found
+        skewness, kurtosis = self._shape
+        return of_shape(found, groups.y, skewness, kurtosis - 3.0, name)
+
+    @cached_property
+    def _shape(self) -> tuple[float, float]:
+        return _shape(self.surface) if isinstance(self.surface, Surface) else (0.0, 3.0)
+
+    def yield_loads(self, groups: Groups, parts: Sequence[Part]) -> tuple[Numbers, list[Advice]]:
+        """Factors on the load at which ``parts`` first yield, and what is to be said of them."""
+
+        def under(factor: float) -> Groups:
+            return replace(groups, y=groups.y * factor, X=groups.X * factor)
+
+        if not any(math.isfinite(part.yield_stress) for part in parts):
+            return Numbers(), []
+        limits = next(one for one in predictor().ranges if one.name == "y")
+        low, high = limits.low / groups.y, limits.high / groups.y
+        while low < 1.0 and _pixels(under(low)) < LEAST_PIXELS:
+            low *= 1.1
+        return yield_loads(
+            parts, lambda factor: (under(factor), self.peak(under(factor))), (min(low, 1.0), max(high, 1.0))
+        )
 
 
 def _hard(hardness: float, pressure: float, groups: Groups, pull: tuple[float, float] | None) -> float:

@@ -8,14 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..core.grid import Grid
-from ..core.scipy_parts import optimize
-from ..core.words import in_words
-from ..solids.compliance.halfspace import contact_compliance
-from ..solids.elastic import Elastic, Rigid
-from ..solids.layers import Body, Bonded, Layer, Layered
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ...core.scipy_parts import optimize
+from ...core.words import in_words
+from ...solids.compliance.halfspace import contact_compliance
+from ...solids.elastic import Elastic, Rigid
+from ...solids.layers import Body, Bonded, Layer, Layered
 
 LAYER_NU = (0.2, 0.4)
 """Poisson's ratios of layers and base between which the factors of a layer hold."""

@@ -1,0 +1,1 @@
+"""Contacts of rough surfaces predicted from a table of solved ones."""
