@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -56,7 +56,7 @@ def parameters(problem: ContactProblem) -> tuple[Parameter, ...]:
         if isinstance(body, Rigid):
             continue
         for rate in compliance_rates(body):
-            name = f"{which}.{_place(body, rate.constant)}{rate.constant.kind}"
+            name = f"{which}.{place_in(body, rate.constant.layer)}{rate.constant.kind}"
             found.append(Parameter(name, which, rate.constant, rate.compliance, rate.factor))
     return tuple(found)
 
@@ -67,10 +67,12 @@ def kept_layers(body: Layered) -> list[int]:
     return [*there, len(body.layers)]
 
 
-def _place(body: Elastic | Layered, constant: Constant) -> str:
+def place_in(body: Elastic | Layered, layer: int) -> str:
+    """Beginning of the names of constants of the ``layer`` of this number in the reduced ``body``:
+    ``layers[0].``, ``base.``, or nothing of a homogeneous one."""
     if isinstance(body, Elastic):
         return ""
-    number = kept_layers(body)[constant.layer]
+    number = kept_layers(body)[layer]
     return f"layers[{number}]." if number < len(body.layers) else "base."
 
 
@@ -108,7 +110,7 @@ def changed_body(body: Body, constant: Constant, value: float) -> Elastic | Laye
 
 def _changed_material(material: Elastic, kind: str, value: float) -> Elastic:
     given = {"youngs_modulus": material.youngs_modulus, "poisson_ratio": material.poisson_ratio, kind: value}
-    return Elastic(given["youngs_modulus"], given["poisson_ratio"])
+    return replace(material, youngs_modulus=given["youngs_modulus"], poisson_ratio=given["poisson_ratio"])
 
 
 def chosen(to: str | Iterable[str], known: Iterable[str]) -> tuple[str, ...]:
@@ -135,8 +137,25 @@ def chosen(to: str | Iterable[str], known: Iterable[str]) -> tuple[str, ...]:
     return tuple(found)
 
 
+class Rated(Protocol):
+    """A constant of a ``name`` to which the derivative of a compliance is ``factor`` times
+    ``rate``."""
+
+    @property
+    def name(self) -> str:
+        """Of the constant."""
+
+    @property
+    def rate(self) -> Compliance:
+        """A compliance per unit of it."""
+
+    @property
+    def factor(self) -> float:
+        """Of the rate."""
+
+
 def responses(
-    operator: Operator, rates: Iterable[Parameter], weight: RealArray, pressure: RealArray
+    operator: Operator, rates: Iterable[Rated], weight: RealArray, pressure: RealArray
 ) -> Mapping[str, float]:
     """weight · (dK/dθ) pressure by the name of each of the parameters θ ``rates``, from one
     transform of each of the two arrays (nx, ny): in Fourier space dK/dθ is diagonal."""
