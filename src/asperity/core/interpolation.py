@@ -84,8 +84,8 @@ class Panels:
         low, high = self.breaks[:-1, None], self.breaks[1:, None]
         return (0.5 * (low + high) + 0.5 * (high - low) * _CHEBYSHEV).ravel()
 
-    def moments(self, x: RealArray, weights: RealArray) -> RealArray:
-        """Sums (TERMS, count) of ``weights`` t^k over the ``x`` in each panel: times the
+    def moments(self, x: RealArray, weights: RealArray, *, terms: int = TERMS) -> RealArray:
+        """Sums (``terms``, count) of ``weights`` t^k over the ``x`` in each panel: times the
         coefficients of any table on these panels they give the sum of weights and values."""
         x, count = x.ravel(), self.count
         panel = np.log((x / self.start).astype(np.float32))  # near a break either panel will do
@@ -94,8 +94,8 @@ class Panels:
         np.clip(number, 0, count - 1, out=number)
         t = x * self.scales[number]
         t -= 1.0 + 2.0 / math.expm1(self.width)
-        power, found = weights.ravel().copy(), np.empty((TERMS, count))
-        for k in range(TERMS):
+        power, found = weights.ravel().copy(), np.empty((terms, count))
+        for k in range(terms):
             found[k] = np.bincount(number, power, count)
             power *= t
         return found
@@ -118,9 +118,14 @@ def panels(grid: Grid, width: float = WIDE) -> Panels:
     lengths = [n * d for n, d in zip(grid.shape, grid.spacing, strict=True) if n > 1] or [max(grid.size)]
     lowest = 2.0 * np.pi / max(lengths) * (1.0 - 1e-12)
     highest = np.pi * math.hypot(*(1.0 / d for d in grid.spacing)) * (1.0 + 1e-12)
-    whole = math.log(highest / lowest)
+    return panels_between(lowest, highest, width)
+
+
+def panels_between(low: float, high: float, width: float = WIDE) -> Panels:
+    """Panels from ``low`` to ``high``, both > 0, about as wide as ``width`` in ln x."""
+    whole = math.log(high / low)
     count = max(1, math.ceil(whole / width))
-    return Panels(lowest, whole / count, count)
+    return Panels(low, whole / count, count)
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,7 +211,31 @@ def log_table(start: float, values: RealArray) -> LogTable:
     values = np.asarray(values, dtype=float)
     # a product of matrices takes a hundred times as long where its threads wait for one another
     coefficients = np.array([np.correlate(values, row, "valid") for row in _FROM_NODES])
-    return LogTable(Panels(float(start * np.exp(STEP * _BEFORE)), STEP, values.size - TERMS + 1), coefficients)
+    return LogTable(table_panels(start, values.size), coefficients)
+
+
+def table_panels(start: float, count: int) -> Panels:
+    """Panels of a table through so many nodes of ``log_grid(start, count)``."""
+    return Panels(float(start * np.exp(STEP * _BEFORE)), STEP, count - TERMS + 1)
+
+
+def backwards_table(moments: RealArray) -> RealArray:
+    """Weights (n,) of the values of a ``log_table`` in a sum whose first ``moments`` (TERMS or
+    fewer, count) are given: its transpose."""
+    rows = [np.convolve(moment, row) for moment, row in zip(moments, _FROM_NODES, strict=False)]
+    return np.asarray(np.sum(rows, axis=0))
+
+
+def backwards_integral(moments: RealArray, width: float) -> tuple[RealArray, float]:
+    """Moments (TERMS, count) of a table of panels of this ``width``, and the weight of the first
+    value, in a sum of its ``integral`` with the ``moments`` (TERMS + 1, count): its transpose."""
+    e, begin = math.tanh(0.5 * width), moments[0]
+    after = np.cumsum(begin[::-1])[::-1] - begin  # of all panels above
+    signs = np.where(np.arange(TERMS) % 2 == 1, 1.0, -1.0)[:, None]
+    found = (moments[1:] + after - signs * (after + begin)) / np.arange(1, TERMS + 1)[:, None]
+    for power in range(TERMS - 1, 0, -1):
+        found[power - 1] -= e * found[power]
+    return e * found, float(begin.sum())
 
 
 def log_hankel(values: RealArray, order: float) -> RealArray:

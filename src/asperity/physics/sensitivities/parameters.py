@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -17,9 +18,9 @@ from ...core.arrays import ComplexArray, RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.interpolation import panels
-from ...core.spectral import RealTransform, multiplicity, thread_count, wrapped
+from ...core.spectral import PaddedTransform, RealTransform, multiplicity, thread_count, wrapped
 from ...solids.compliance.halfspace import Compliance
-from ...solids.compliance.influence import patch_sums
+from ...solids.compliance.patch_sums import PatchSums
 from ...solids.compliance.rates import UNITS, ComplianceRate, Constant, compliance_rates, normal_rates
 from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Body, Layer, Layered
@@ -166,25 +167,23 @@ def responses(
     """weight · (dK/dθ) pressure by the name of each of the parameters θ ``rates``, from one
     transform of each of the two arrays (nx, ny): in Fourier space dK/dθ is diagonal."""
     grid = Grid(operator.padded, operator.grid.spacing)
-    transform, (nx, ny) = RealTransform(grid.shape, thread_count()), operator.grid.shape
-    spectra = []
-    for field in (weight, pressure):
-        whole = np.zeros(grid.shape)
-        whole[:nx, :ny] = field
-        spectra.append(transform.forward(whole))
-    density = (spectra[0].conj() * spectra[1]).real * (multiplicity(grid) / grid.n_points)
+    transform = PaddedTransform(operator.grid.shape, grid.shape, thread_count())
+    spectra = [transform.forward(field, np.empty(transform.spectrum_shape, complex)) for field in (weight, pressure)]
+    product = np.conj(spectra[0], out=spectra[0])
+    product *= spectra[1]
+    shares = multiplicity(grid) / grid.n_points
     known: dict[int, float] = {}
     asked = list(rates)
     layered = [each.rate for each in asked if isinstance(each.rate, ComplianceRate)]
     if isinstance(operator.boundary, Free):
-        known = _by_distance(operator, layered, transform, spectra[0].conj() * spectra[1])
+        known = _by_distance(operator, layered, transform, product)
     elif isinstance(operator.boundary, Periodic):
-        known = _by_wavenumber(operator, layered, density)
+        known = _by_wavenumber(operator, layered, product.real * shares)
     found: dict[str, float] = {}
     for parameter in asked:
         rate = parameter.rate
         if id(rate) not in known:
-            kernel = _kernel(operator, rate, transform)
+            kernel, density = _kernel(operator, rate), product.real * shares
             # the datum is that of the compliance: the mean, where a half-space is part of it
             known[id(rate)] = float((kernel * density).sum())
             if operator.zero_mean_mode:
@@ -210,7 +209,7 @@ def _by_wavenumber(operator: Operator, rates: Iterable[ComplianceRate], density:
     within = panels(grid, PANEL)
     moments = within.moments(q, quarter.ravel()[1:] / q)
     for of_body in bodies:
-        fitted = within.fitted(normal_rates(of_body[0].rates.stack, within.points) * within.points)
+        fitted = within.fitted(_times_wavenumber(of_body[0].rates.stack, within.points))
         for rate in of_body:
             found[id(rate)] = float((moments * fitted[:, rate.number].T).sum())
             if not operator.zero_mean_mode:
@@ -219,25 +218,37 @@ def _by_wavenumber(operator: Operator, rates: Iterable[ComplianceRate], density:
 
 
 def _by_distance(
-    operator: Operator, rates: Iterable[ComplianceRate], transform: RealTransform, product: ComplexArray
+    operator: Operator, rates: Iterable[ComplianceRate], transform: PaddedTransform, product: ComplexArray
 ) -> dict[int, float]:
     """The same of layered bodies on a free boundary by the ``id`` of each rate, from the
     correlation of the arrays, whose spectrum is ``product``: no rate needs influence coefficients
-    of its own beyond those near by."""
+    of its own."""
     bodies = _by_body(rates)
     if not bodies:
         return {}
-    nx, ny = operator.grid.shape
-    whole = transform.backward(product)
-    weights = whole[:nx, :ny].copy()
-    weights[1:, :] += whole[:-nx:-1, :ny]
-    weights[:, 1:] += whole[:nx, :-ny:-1]
-    weights[1:, 1:] += whole[:-nx:-1, :-ny:-1]
+    # offsets of all signs together: even in both directions
+    even = product.real.copy()
+    even[1:] += product.real[:0:-1]
+    even[0] *= 2.0
+    weights = transform.backward(2.0 * even + 0j, np.empty(operator.grid.shape))
+    weights[0] *= 0.5
+    weights[:, 0] *= 0.5
     found: dict[int, float] = {}
     for of_body in bodies:
-        sums = patch_sums([rate.point() for rate in of_body], operator.grid, weights)
-        found |= {id(rate): value for rate, value in zip(of_body, sums, strict=True)}
+        own = of_body[0].rates
+        sums = PatchSums.of(operator.grid, weights, own.stack.thickness).sums(
+            partial(_times_wavenumber, own.stack),
+            [own.limits(number) for number in range(len(own.constants))],
+            min(layer.thickness for layer in own.stack.layers),
+            PANEL,
+        )
+        found |= {id(rate): float(sums[rate.number]) for rate in of_body}
     return found
+
+
+def _times_wavenumber(stack: Layered, q: RealArray) -> RealArray:
+    """q times the derivatives of the compliance to all constants, (constants, n), at ``q`` (n,)."""
+    return np.asarray(normal_rates(stack, q) * q)
 
 
 def _by_body(rates: Iterable[ComplianceRate]) -> list[list[ComplianceRate]]:
@@ -248,10 +259,11 @@ def _by_body(rates: Iterable[ComplianceRate]) -> list[list[ComplianceRate]]:
     return [list(each.values()) for each in found.values()]
 
 
-def _kernel(operator: Operator, rate: Compliance, transform: RealTransform) -> RealArray:
+def _kernel(operator: Operator, rate: Compliance) -> RealArray:
     """``rate`` on the half spectrum of the operator."""
     grid, boundary = operator.grid, operator.boundary
     if isinstance(boundary, Periodic):
         return np.asarray(spectral_kernel(rate, grid))
     influence = boundary.influence(rate, grid)
+    transform = RealTransform(operator.padded, thread_count())
     return np.asarray(transform.forward(wrapped(influence, operator.padded)).real)

@@ -20,7 +20,7 @@ Held: TypeAlias = Literal["load", "approach"]
 RESIDUAL = 1e-8
 """Residual of the linear system over its right-hand side that is asked for, as largest entries."""
 
-_MARGIN, _MOST_STEPS = 0.5, 500
+_MARGIN, _MOST_STEPS = 0.25, 500
 """Reduction in the norm of conjugate gradients over that of the largest entry that is asked for,
 with which at most one step follows in vain; steps at most."""
 
