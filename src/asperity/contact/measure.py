@@ -163,13 +163,16 @@ def normal_stiffness(operator: Operator, moving: BoolArray) -> float:
 
 class Response(NamedTuple):
     """Pressure that moves some points as prescribed: the set ``free`` of them, the ``scaled``
-    operator, the ``values`` on the set, None where it is not solved, and the FFT ``pairs`` it
-    took."""
+    operator, the ``values`` on the set, None where it is not solved, the FFT ``pairs`` it took, and
+    of the rise less that found the largest ``error`` and the mean ``level``, both in m as the
+    solution carries them along."""
 
     free: FreeSet
     scaled: ScaledOperator
     values: Any = None
     pairs: float = 0.0
+    error: float = math.inf
+    level: float = 0.0
 
     @classmethod
     def of(cls, operator: Operator, moving: BoolArray, dtype: str = "float32") -> Self:
@@ -191,8 +194,12 @@ class Response(NamedTuple):
         """
         r = self.free.residual(centred=False) if rise is None else self._vector(rise)
         found = conjugate_gradients(LinearSystem(self.scaled, self.free, zero_sum=zero_sum), r, stopping)
-        self.scaled.engine.clear_field(self.free, self.scaled.field)
-        return self._replace(values=found.d if found.reached else None, pairs=found.pairs)
+        engine = self.scaled.engine
+        engine.clear_field(self.free, self.scaled.field)
+        if not found.reached:
+            return self._replace(values=None, pairs=found.pairs)
+        error = float(np.abs(np.asarray(engine.numpy(found.residual))).max())
+        return self._replace(values=found.d, pairs=found.pairs, error=error, level=found.level)
 
     def preconditioned(self, rise: RealArray) -> RealArray:
         """Approximate pressure (nx, ny) for a ``rise`` (nx, ny) of the points, in the units and the

@@ -84,6 +84,27 @@ class Panels:
         low, high = self.breaks[:-1, None], self.breaks[1:, None]
         return (0.5 * (low + high) + 0.5 * (high - low) * _CHEBYSHEV).ravel()
 
+    def moments(self, x: RealArray, weights: RealArray, *, terms: int = TERMS) -> RealArray:
+        """Sums (``terms``, count) of ``weights`` t^k over the ``x`` in each panel: times the
+        coefficients of any table on these panels they give the sum of weights and values."""
+        x, count = x.ravel(), self.count
+        panel = np.log((x / self.start).astype(np.float32))  # near a break either panel will do
+        panel /= np.float32(self.width)
+        number = panel.astype(np.intp)
+        np.clip(number, 0, count - 1, out=number)
+        t = x * self.scales[number]
+        t -= 1.0 + 2.0 / math.expm1(self.width)
+        power, found = weights.ravel().copy(), np.empty((terms, count))
+        for k in range(terms):
+            found[k] = np.bincount(number, power, count)
+            power *= t
+        return found
+
+    @cached_property
+    def scales(self) -> RealArray:
+        """dt/dx in each panel, (count,)."""
+        return np.asarray(2.0 / (math.expm1(self.width) * self.breaks[:-1]))
+
     def fitted(self, values: RealArray) -> RealArray:
         """Coefficients (count, m, TERMS) of the powers of t of m functions with ``values`` (m,
         count · TERMS) at ``points``."""
@@ -91,14 +112,20 @@ class Panels:
         return np.ascontiguousarray(np.moveaxis(by_panel @ _FROM_POINTS, 1, 0))
 
 
-def panels(grid: Grid) -> Panels:
-    """Panels that hold every wavenumber of ``grid`` but zero."""
+def panels(grid: Grid, width: float = WIDE) -> Panels:
+    """Panels that hold every wavenumber of ``grid`` but zero, about as wide as ``width`` in ln
+    x."""
     lengths = [n * d for n, d in zip(grid.shape, grid.spacing, strict=True) if n > 1] or [max(grid.size)]
     lowest = 2.0 * np.pi / max(lengths) * (1.0 - 1e-12)
     highest = np.pi * math.hypot(*(1.0 / d for d in grid.spacing)) * (1.0 + 1e-12)
-    whole = math.log(highest / lowest)
-    count = max(1, math.ceil(whole / WIDE))
-    return Panels(lowest, whole / count, count)
+    return panels_between(lowest, highest, width)
+
+
+def panels_between(low: float, high: float, width: float = WIDE) -> Panels:
+    """Panels from ``low`` to ``high``, both > 0, about as wide as ``width`` in ln x."""
+    whole = math.log(high / low)
+    count = max(1, math.ceil(whole / width))
+    return Panels(low, whole / count, count)
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +157,7 @@ class LogTable:
             logarithm = np.log((at / self.panels.start).astype(np.float32))  # near a break either panel will do
             logarithm /= np.float32(self.panels.width)
             panel = logarithm.astype(np.intp)
-            t = self._scales.take(panel, mode="clip")
+            t = self.panels.scales.take(panel, mode="clip")
             t *= at
             t -= 1.0 + 2.0 / math.expm1(self.panels.width)
             highest = int(self._needed.take(panel, mode="clip").max(initial=0))
@@ -142,17 +169,8 @@ class LogTable:
         return out.reshape(x.shape)
 
     def moments(self, x: RealArray, weights: RealArray) -> RealArray:
-        """Sums (TERMS, count) of ``weights`` t^k over the ``x`` in each panel: times the
-        ``coefficients`` of any table on these panels they give the sum of weights and values."""
-        count = self.panels.count
-        panel = (np.log(x.ravel() / self.panels.start) / self.panels.width).astype(np.intp).clip(0, count - 1)
-        t = x.ravel() * self._scales[panel]
-        t -= self._scales[panel] * self.panels.breaks[panel] + 1.0
-        power, found = weights.ravel().copy(), np.empty((TERMS, count))
-        for k in range(TERMS):
-            found[k] = np.bincount(panel, power, count)
-            power *= t
-        return found
+        """Those of the ``panels``."""
+        return self.panels.moments(x, weights)
 
     @cached_property
     def _needed(self) -> Any:
@@ -160,11 +178,6 @@ class LogTable:
         sizes = np.abs(self.coefficients)
         rest = np.cumsum(sizes[::-1], axis=0)[::-1]  # of a power and all above it: it falls with the power
         return (rest[1:] > _LOST * sizes[0]).sum(axis=0)
-
-    @cached_property
-    def _scales(self) -> RealArray:
-        """dt/dx in each panel, (count,)."""
-        return np.asarray(2.0 / (math.expm1(self.panels.width) * self.panels.breaks[:-1]))
 
     def integral(self, first: float = 0.0) -> LogTable:
         """Table of the integral over ln x, which is ``first`` at the start.
@@ -198,7 +211,31 @@ def log_table(start: float, values: RealArray) -> LogTable:
     values = np.asarray(values, dtype=float)
     # a product of matrices takes a hundred times as long where its threads wait for one another
     coefficients = np.array([np.correlate(values, row, "valid") for row in _FROM_NODES])
-    return LogTable(Panels(float(start * np.exp(STEP * _BEFORE)), STEP, values.size - TERMS + 1), coefficients)
+    return LogTable(table_panels(start, values.size), coefficients)
+
+
+def table_panels(start: float, count: int) -> Panels:
+    """Panels of a table through so many nodes of ``log_grid(start, count)``."""
+    return Panels(float(start * np.exp(STEP * _BEFORE)), STEP, count - TERMS + 1)
+
+
+def backwards_table(moments: RealArray) -> RealArray:
+    """Weights (n,) of the values of a ``log_table`` in a sum whose first ``moments`` (TERMS or
+    fewer, count) are given: its transpose."""
+    rows = [np.convolve(moment, row) for moment, row in zip(moments, _FROM_NODES, strict=False)]
+    return np.asarray(np.sum(rows, axis=0))
+
+
+def backwards_integral(moments: RealArray, width: float) -> tuple[RealArray, float]:
+    """Moments (TERMS, count) of a table of panels of this ``width``, and the weight of the first
+    value, in a sum of its ``integral`` with the ``moments`` (TERMS + 1, count): its transpose."""
+    e, begin = math.tanh(0.5 * width), moments[0]
+    after = np.cumsum(begin[::-1])[::-1] - begin  # of all panels above
+    signs = np.where(np.arange(TERMS) % 2 == 1, 1.0, -1.0)[:, None]
+    found = (moments[1:] + after - signs * (after + begin)) / np.arange(1, TERMS + 1)[:, None]
+    for power in range(TERMS - 1, 0, -1):
+        found[power - 1] -= e * found[power]
+    return e * found, float(begin.sum())
 
 
 def log_hankel(values: RealArray, order: float) -> RealArray:

@@ -171,7 +171,14 @@ def test_conductance_follows_the_stiffness() -> None:
     test = stiffness.taylor("force", (0.02, 0.01))
     slope = stiffness.relative["force"] * stiffness.value
     assert test.differences[1] == pytest.approx(0.01 * slope, rel=0.1)
-    with refused(InputError, "body of the sensitivity of a conductance"):
+    # equal resistivities of both bodies share the constriction
+    both = sensitivities(result, "electrical_conductance", "body")
+    assert both.relative["body.electrical_resistivity"] == pytest.approx(-0.5, rel=1e-9)
+    of_heat = sensitivities(result, "thermal_conductance", "counter_body.thermal_conductivity")
+    assert of_heat.relative["counter_body.thermal_conductivity"] == pytest.approx(0.5, rel=1e-9)
+    test = both.taylor("body.electrical_resistivity", (1e-2, 1e-3))
+    assert test.orders[0] == pytest.approx(2.0, abs=0.05)
+    with refused(InputError, "electrical resistivity of layer 1 of the body"):
         sensitivities(solved(Periodic()), "electrical_conductance", "force")
 
 

@@ -49,6 +49,11 @@ class SensitivityCertificate:
         small share of the contact.
     fft_pairs
         Work: FFT pairs of the size of the grid.
+    by_edges
+        Of area and layered conductors: what derivatives by the edge that moves were multiplied
+        with, so that the one to the load is that of several loads. 0.7 to 1.5 where they then agree
+        with differences within 4 % of the largest; further from one where spots are few pixels
+        wide.
     """
 
     adjoint_residual: float
@@ -56,6 +61,7 @@ class SensitivityCertificate:
     output_error: float
     changed: int
     fft_pairs: float
+    by_edges: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)

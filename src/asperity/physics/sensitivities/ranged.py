@@ -1,8 +1,9 @@
 """Area, stiffness and conductance of a contact: their derivatives from solves at several loads.
 
-The derivative of the stiffness on a fixed set lacks a part by the edge that moves, and that of the
-area is all of this kind. Both come out of the approach and of the area by the edge at loads between
-which the edge moves by some pixels, which also takes out how it lies between them.
+The derivative of the stiffness on a fixed set lacks a part by the edge that moves, and those of the
+area and, at given conductors, of a conductance are all of this kind. They come out of the approach,
+and of the area by the edge, at loads between which the edge moves by some pixels, which also takes
+out how it lies between them.
 """
 
 from __future__ import annotations
@@ -14,102 +15,80 @@ from typing import Literal
 
 import numpy as np
 
-from ...contact.controls import MeanPressure
-from ...contact.operators import prepare_operator
 from ...contact.problem import ContactProblem
 from ...contact.result import ContactResult
-from ...contact.solve import solve
-from ...contact.solvers.active_set.solver import ActiveSet
 from ...core.arrays import RealArray
 from ...core.engine import Engine
 from ...core.errors import InputError
 from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Layered
-from ..conductance.operator import ELECTRICAL, THERMAL, harmonic_mean
-from .answer import Sensitivities, SensitivityCertificate
-from .one_load import AGAIN, at_one_load, require_differentiable, stepped_problem
-from .outputs import OUTPUTS, EdgeArea, Output, Slopes, State
-from .parameters import HEIGHTS, LOAD
+from ..conductance.operator import ELECTRICAL, THERMAL, Flow, harmonic_mean
+from .answer import Sensitivities
+from .by_edges import conductance_at, of_area, of_conductance
+from .conducting import conductor_parameters, is_layered, of_half_spaces, with_conductor
+from .loads import ENDS, EVENLY, factors_about, require_moving_edge, solved_at, worst_of
+from .one_load import at_one_load, stepped_problem
+from .outputs import OUTPUTS, Slopes, State
+from .parameters import HEIGHTS, LOAD, chosen, parameters
 from .system import RESIDUAL, Held
-
-REACH = 0.15
-"""Relative change of the load up to which others are solved. The secant of the compliance errs by
-0.2 % of a sphere and by 0.8 % of a contact whose load grows exponentially."""
-
-MANY = 8
-"""Loads over which the area is averaged: its derivatives then err by at most 10 % of the largest
-where the radius of a contact is 15 pixels, by 2 to 7 % where it is 35 pixels; of a wave of which 86
-% touch, by 20 %."""
-
-EDGE = 0.75
-"""Pressure of the area by its edge over the mean real pressure."""
 
 
 @dataclass(frozen=True)
 class Ranged:
-    """An output from several loads: its ``name``, SI ``unit``, ``degree`` in load and moduli, and
-    the ``shares`` of the largest change at which the contact is solved."""
+    """An output from several loads: its ``name``, SI ``unit`` and ``degree`` in load and moduli,
+    and of a conductance what flows."""
 
     name: Literal["area", "stiffness", "electrical_conductance", "thermal_conductance"]
     unit: str
     degree: float | None
-    shares: tuple[float, ...]
+    flow: Flow | None = None
 
     def at(self, state: State) -> Slopes:
         """Refused: it takes several loads."""
         raise InputError(f"output must be one of a single load, but is {self.name}. Take sensitivities(result, ...).")
 
-    def of(self, result: ContactResult) -> Output:
-        """What is found at each load of the contact ``result``."""
-        if self.name != "area":
-            return OUTPUTS["approach"]
-        mean = result.force / (float(result.contact.sum()) * result.problem.grid.pixel_area)
-        return EdgeArea(EDGE * _left(result) * mean)
+    def by_edges(self, problem: ContactProblem) -> bool:
+        """Whether it is found by the edge that moves, else from the approach at two loads."""
+        layered = is_layered(problem.body) or is_layered(problem.counter_body)
+        return self.name == "area" or (self.flow is not None and layered)
 
     def factors(self, result: ContactResult) -> RealArray:
         """Loads over that of the ``result``."""
-        return 1.0 + REACH * _left(result) * np.array(self.shares)
+        return factors_about(result, EVENLY if self.by_edges(result.problem) else ENDS)
 
-    def value(self, values: Sequence[float], rise: float, problem: ContactProblem) -> float:
-        """J, from what is found at each load; ``rise``: largest load less the smallest, in N."""
+    def of(self, contacts: Sequence[ContactResult], engine: Engine | None = None) -> float:
+        """J, from ``contacts`` of one problem at several loads."""
+        problem = contacts[0].problem
         if self.name == "area":
-            return float(np.mean(values))
-        return self.scale(problem) * rise / (values[1] - values[0])
+            return float(np.mean([each.contact_area for each in contacts]))
+        if self.by_edges(problem) and self.flow is not None:
+            return float(np.mean([each.extrapolated for each in conductance_at(contacts, self.flow, engine)]))
+        low, high = contacts
+        return self.over_stiffness(problem) * (high.force - low.force) / (high.approach - low.approach)
 
-    def scale(self, problem: ContactProblem) -> float:
-        """J over the stiffness: for conductances k_s/E* (Barber 2003)."""
-        if self.name in ("area", "stiffness"):
+    def stepped(self, problem: ContactProblem, name: str, step: float) -> ContactProblem:
+        """``problem`` with the parameter of that ``name`` changed by a relative ``step``."""
+        known = () if self.flow is None else conductor_parameters(problem, self.flow)
+        for each in known:
+            if each.name == name and each.of_material:
+                return with_conductor(problem, each, each.value * (1.0 + step))
+        return stepped_problem(problem, name, step)
+
+    def over_stiffness(self, problem: ContactProblem) -> float:
+        """J over the stiffness: for conductances of homogeneous bodies k_s/E* (Barber 2003)."""
+        if self.flow is None:
             return 1.0
-        for which in ("body", "counter_body"):
-            body = getattr(problem, which)
-            if isinstance(body, Layered) and body.reduced.layers:
-                raise InputError(
-                    f"{which.replace('_', ' ')} of the sensitivity of a conductance must be homogeneous, as it is that "
-                    "of the stiffness, but is layered."
-                )
-        flow = ELECTRICAL if self.name.startswith("electrical") else THERMAL
-        return harmonic_mean(problem.body, problem.counter_body, flow) / problem.contact_modulus
+        return harmonic_mean(problem.body, problem.counter_body, self.flow) / problem.contact_modulus
 
-
-def _left(result: ContactResult) -> float:
-    """Open over touching area of a periodic contact, at most one: near full contact the load and
-    the pressure at edges change less."""
-    if not all(result.problem.boundary.wraps):
-        return 1.0
-    touching = float(result.contact.mean())
-    return min(1.0, (1.0 - touching) / touching)
-
-
-_ENDS = (-1.0, 1.0)
 
 RANGED: Mapping[str, Ranged] = MappingProxyType(
     {
         each.name: each
         for each in (
-            Ranged("area", "m**2", 0.0, tuple(((np.arange(MANY) + 0.5) / MANY * 2.0 - 1.0).tolist())),
-            Ranged("stiffness", "N/m", 1.0, _ENDS),
-            Ranged("electrical_conductance", "S", 0.0, _ENDS),
-            Ranged("thermal_conductance", "W/K", 0.0, _ENDS),
+            Ranged("area", "m**2", 0.0),
+            Ranged("stiffness", "N/m", 1.0),
+            Ranged("electrical_conductance", "S", 0.0, ELECTRICAL),
+            Ranged("thermal_conductance", "W/K", 0.0, THERMAL),
         )
     }
 )
@@ -130,75 +109,76 @@ def over_loads(
     Raises
     ------
     InputError
-        If the approach is to be held, or as of ``sensitivities``.
+        If the approach is to be held, or a conductivity that is needed is not known, or as of
+        ``sensitivities``.
     """
-    require_differentiable(result)
-    if held == "approach":
-        raise InputError(f"held of sensitivities must be load for {wanted.name}, but is approach.")
-    if result.plastic.any():
-        raise InputError(
-            f"contact must be elastic for sensitivities of {wanted.name}, but {int(result.plastic.sum())} points have "
-            "yielded. Leave the {hardness} out."
-        )
-    if not _left(result):
-        raise InputError(f"contact must be partial for sensitivities of {wanted.name}, but is full.")
-    problem, of, force, factors = result.problem, wanted.of(result), result.force, wanted.factors(result)
-    several = [
-        at_one_load(each, of, to, held="load", tolerance=tolerance, engine=engine)
-        for each in _solved(problem, factors, result, engine)
+    require_moving_edge(result, wanted.name, held)
+    problem = result.problem
+    of_contact = [HEIGHTS, LOAD, *(each.name for each in parameters(problem))]
+    flowing = {} if wanted.flow is None else {each.name: each for each in conductor_parameters(problem, wanted.flow)}
+    asked = chosen(to, dict.fromkeys([*of_contact, *flowing]))
+    names = tuple(name for name in asked if name in of_contact)
+    conducting = {name: each for name, each in flowing.items() if name in asked}
+    if wanted.by_edges(problem):
+        if wanted.flow is None:
+            found = of_area(result, names, tolerance, engine)
+        else:
+            found = of_conductance(result, wanted.flow, names, conducting.values(), tolerance, engine)
+        value, values, certificate, first = found.value, dict(found.values), found.certificate, found.several[0]
+    else:
+        several = _ends(result, names, tolerance, engine)
+        value, values = _by_approach(result, wanted, names, several)
+        if wanted.flow is not None and conducting:
+            # the share of each is that among all of them
+            slopes = of_half_spaces(flowing, wanted.flow)
+            values |= {name: value * slopes[name] for name in conducting}
+        certificate, first = worst_of(each.certificate for each in several), several[0]
+    given = {name: first.parameters[name] for name in names} | {name: each.value for name, each in conducting.items()}
+    units = {name: first.units[name] for name in names} | {name: each.unit for name, each in conducting.items()}
+    if LOAD in given:
+        given[LOAD] = result.force
+    values = {name: values[name] for name in asked}
+    again = _again(result, wanted, engine)
+    return Sensitivities(problem, wanted, value, "load", values, given, units, certificate, again)
+
+
+def _ends(
+    result: ContactResult, names: tuple[str, ...], tolerance: float, engine: Engine | None
+) -> list[Sensitivities]:
+    """Derivatives of the approach at both ends of the loads."""
+    return [
+        at_one_load(each, OUTPUTS["approach"], names or LOAD, held="load", tolerance=tolerance, engine=engine)
+        for each in solved_at(result.problem, result.mean_pressure * factors_about(result, ENDS), engine)
     ]
-    value = wanted.value([each.value for each in several], force * float(np.ptp(factors)), problem)
+
+
+def _by_approach(
+    result: ContactResult, wanted: Ranged, names: tuple[str, ...], several: list[Sensitivities]
+) -> tuple[float, dict[str, float | RealArray]]:
+    """J = scale ΔP/Δδ and its derivatives."""
+    problem, force, factors = result.problem, result.force, factors_about(result, ENDS)
+    rise = several[1].value - several[0].value
+    value = wanted.over_stiffness(problem) * force * float(np.ptp(factors)) / rise
     values = dict[str, float | RealArray]()
-    for name in several[0].values:
+    for name in names:
         by = factors if name == LOAD else np.ones(len(several))
         parts = [factor * np.asarray(each.values[name]) for factor, each in zip(by, several, strict=True)]
-        if wanted.name == "area":
-            found = np.mean(parts, axis=0)
-        else:  # J = scale ΔP/Δδ
-            rise = several[1].value - several[0].value
-            found = value * (np.asarray((1.0 / force) if name == LOAD else 0.0) - (parts[1] - parts[0]) / rise)
-            found = found + value * _of_scale(wanted, problem, name)
+        found = value * (np.asarray((1.0 / force) if name == LOAD else 0.0) - (parts[1] - parts[0]) / rise)
+        found = found + value * _of_scale(wanted, problem, name)
         values[name] = found if found.ndim else float(found)
-    first = several[0]
-    given = dict(first.parameters)
-    if LOAD in given:
-        given[LOAD] = force
-    certificates = [each.certificate for each in several]
-    worst = SensitivityCertificate(
-        adjoint_residual=max(each.adjoint_residual for each in certificates),
-        state_error=max(each.state_error for each in certificates),
-        output_error=float("nan"),
-        changed=max(each.changed for each in certificates),
-        fft_pairs=sum(each.fft_pairs for each in certificates),
-    )
-    again = _again(result, wanted, of, engine)
-    return Sensitivities(problem, wanted, value, "load", values, given, first.units, worst, again)
+    return value, values
 
 
-def _solved(
-    problem: ContactProblem, factors: RealArray, result: ContactResult, engine: Engine | None
-) -> list[ContactResult]:
-    """``problem`` under the load of ``result`` times each of the ``factors``."""
-    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-    loads = [MeanPressure(each * result.mean_pressure) for each in factors]
-    method = ActiveSet(tolerance=AGAIN)
-    return [solve(problem, load, solver=method, operator=operator, on_failure="return") for load in loads]
-
-
-def _again(
-    result: ContactResult, wanted: Ranged, of: Output, engine: Engine | None
-) -> Callable[[str, float], tuple[float, int]]:
+def _again(result: ContactResult, wanted: Ranged, engine: Engine | None) -> Callable[[str, float], tuple[float, int]]:
     """Solves with a parameter changed, as of ``Again``."""
-
-    factors = wanted.factors(result)
+    pressures = result.mean_pressure * wanted.factors(result)
 
     def again(name: str, step: float) -> tuple[float, int]:
-        problem, by = stepped_problem(result.problem, name, step), 1.0 + step if name == LOAD else 1.0
-        found = _solved(problem, by * factors, result, engine)
-        values = [at_one_load(each, of, HEIGHTS, held="load", engine=engine).value for each in found]
-        before = _solved(result.problem, factors, result, engine)
+        by = 1.0 + step if name == LOAD else 1.0
+        found = solved_at(wanted.stepped(result.problem, name, step), by * pressures, engine)
+        before = solved_at(result.problem, pressures, engine)
         turned = sum(int((one.contact != other.contact).sum()) for one, other in zip(found, before, strict=True))
-        return wanted.value(values, by * result.force * float(np.ptp(factors)), problem), turned
+        return wanted.of(found, engine), turned
 
     return again
 
@@ -207,7 +187,7 @@ def _of_scale(wanted: Ranged, problem: ContactProblem, name: str) -> float:
     """d ln (k_s/E*) to the parameter of that ``name``, 1/E* = Σ (1 - ν²)/E."""
     which, _, kind = name.rpartition(".")
     which = which.partition(".")[0]
-    if wanted.name in ("area", "stiffness") or which not in ("body", "counter_body"):
+    if wanted.flow is None or which not in ("body", "counter_body"):
         return 0.0
     body = getattr(problem, which)
     if isinstance(body, Rigid):

@@ -43,14 +43,16 @@ def sensitivities(
         ``"mean_gap"`` (m), ``"elastic_energy"`` or ``"complementary_energy"`` p·u/2 - p·h (J),
         ``PressureNorm(m)``, ``PressureAt(x, y)``, ``StressNorm(layer, planes)``,
         ``SmoothArea(pressure)`` or ``EdgeArea(pressure)``, or an ``Output`` of one's own; and, from
-        solves at several loads, ``"area"`` (m²), ``"stiffness"`` dP/dδ (N/m),
-        ``"electrical_conductance"`` (S), ``"thermal_conductance"`` (W/K) and
+        solves at several loads, ``"area"`` (m²), ``"stiffness"`` dP/dδ (N/m), of clean contact
+        ``"electrical_conductance"`` (S) and ``"thermal_conductance"`` (W/K), and
         ``FirstYield(stress)``, the load at first yield over that of the result.
     to
         ``"all"``, or names of parameters: ``"heights"`` of the composite surface (m), ``"force"``
         (N) or, where that is held, ``"approach"`` (m), ``"hardness"`` (Pa), constants of the bodies
         such as ``"body.layers[0].thickness"``, ``"body.base.youngs_modulus"`` and
-        ``"counter_body.poisson_ratio"``; ``"body"`` and ``"body.layers"`` take all that begin so.
+        ``"counter_body.poisson_ratio"``, for conductances
+        ``"body.base.electrical_resistivity"`` (Ω m) and ``"body.thermal_conductivity"`` (W/(m K));
+        ``"body"`` and ``"body.layers"`` take all that begin so.
     held
         ``"load"`` or ``"approach"``; by default what the control of the result prescribes.
     tolerance

@@ -20,9 +20,13 @@ Held: TypeAlias = Literal["load", "approach"]
 RESIDUAL = 1e-8
 """Residual of the linear system over its right-hand side that is asked for, as largest entries."""
 
-_MARGIN, _MOST_STEPS = 0.5, 500
+_MARGIN, _MOST_STEPS = 0.25, 500
 """Reduction in the norm of conjugate gradients over that of the largest entry that is asked for,
 with which at most one step follows in vain; steps at most."""
+
+_CARRIED = 1e-9
+"""Residual down to which conjugate gradients carry it along in double precision as it is; below it
+is computed."""
 
 _REFINEMENTS = 1
 """Further solves for the residual that is left: usually there is none."""
@@ -80,6 +84,8 @@ class FixedSet:
         free, operator, load = self.free, self.operator, self.held == "load"
         size, values, pairs, prepared = int(free.sum()), np.zeros(free.shape), 0.0, None
         scale, least = float(np.abs(right[free]).max()), np.inf
+        if load and total and float(np.ptp(right[free])) == 0.0 and not (free.all() and operator.zero_mean_mode):
+            return self._uniform(float(right[free][0]), total, enough)
         if load and total:
             values[free] = total / size
         for left_over in range(_REFINEMENTS + 1, -1, -1):
@@ -99,11 +105,21 @@ class FixedSet:
             if found.values is None:
                 break
             values = values + found.pressure
+            if enough >= _CARRIED and found.error <= enough * scale:
+                residual, multiplier = found.error / scale, multiplier + found.level
+                break
         if residual > max(_WORST, enough):
             raise ConvergenceError(
                 f"The linear system of the sensitivities did not converge: its relative residual is {residual:.1e}."
             )
         return Solved(values, multiplier if load else 0.0, residual, pairs)
+
+    def _uniform(self, rise: float, total: float, enough: float) -> Solved:
+        """The same for a right-hand side that is ``rise`` everywhere: by the pressure that moves
+        the set by one."""
+        one = FixedSet(self.operator, self.free, "approach").solve(np.where(self.free, 1.0, 0.0), enough=enough)
+        stiffness = float(one.values.sum())
+        return Solved(one.values * (total / stiffness), rise - total / stiffness, one.residual, one.pairs)
 
     def _centred(self, field: RealArray) -> tuple[RealArray, float]:
         """``field`` on the set, zero elsewhere, less its mean there where the load is held; and

@@ -24,6 +24,7 @@ from ...core.late import Shown
 from ...core.spectral import RealTransform, multiplicity, thread_count
 from ...core.units import percent, show
 from .answer import Sensitivities
+from .loads import solved_at
 from .one_load import posed, stepped_problem
 from .outputs import Output
 from .parameters import HEIGHTS, LOAD, changed
@@ -288,7 +289,9 @@ class _Draws:
             elif name == STRENGTH:
                 strength *= math.exp(z)
             else:
-                problem = stepped_problem(problem, name, math.expm1(z))
+                of, step = self.found.output, math.expm1(z)
+                stepped = of.stepped if isinstance(of, Ranged) else stepped_problem
+                problem = stepped(problem, name, step)
         if self.noise is not None:
             added = self.noise.drawn(problem.grid, generator)
             log += float((np.asarray(self.found[HEIGHTS]) * added).sum()) / self.found.value
@@ -301,16 +304,10 @@ class _Draws:
         if isinstance(output, FirstYield):
             force, own = pressure * problem.grid.area, strength * float(np.asarray(self.found.parameters[STRENGTH]))
             return output.factor(problem, force, own, self.found.value)
+        if isinstance(output, Ranged):
+            return output.of(
+                solved_at(problem, pressure * output.factors(self.result), self.engine, CLOSE), self.engine
+            )
         operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=self.engine)
-        ranged = output if isinstance(output, Ranged) else None
-        factors = np.ones(1) if ranged is None else ranged.factors(self.result)
-        each = output if ranged is None else ranged.of(self.result)
-        values = [
-            each.at(
-                posed(solve(problem, MeanPressure(factor * pressure), solver=method, operator=operator), operator)
-            ).value
-            for factor in factors
-        ]
-        if ranged is None:
-            return values[0]
-        return ranged.value(values, pressure * problem.grid.area * float(np.ptp(factors)), problem)
+        result = solve(problem, MeanPressure(pressure), solver=method, operator=operator)
+        return output.at(posed(result, operator)).value

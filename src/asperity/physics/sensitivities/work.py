@@ -226,7 +226,13 @@ def _shares(problem: ContactProblem) -> dict[str, str]:
     return found | {"modulus": "body.youngs_modulus", "base_modulus": "body.youngs_modulus"}
 
 
-_KINDS = {"youngs_modulus": "Young's modulus", "poisson_ratio": "Poisson's ratio", "thickness": "thickness"}
+_KINDS = {
+    "youngs_modulus": "Young's modulus",
+    "poisson_ratio": "Poisson's ratio",
+    "thickness": "thickness",
+    "electrical_resistivity": "electrical resistivity",
+    "thermal_conductivity": "thermal conductivity",
+}
 _PLAIN = {LOAD: "load", APPROACH: "approach", HEIGHTS: "rms height", HARDNESS: "hardness", "strength": "strength"}
 
 
@@ -285,7 +291,7 @@ def _cells(key: str, relative: float, name: str, facts: Any) -> tuple[str, ...]:
     slope = facts["derivatives"][name].get(key, math.nan)
     by = OUTPUTS[name][0]
     derivative = "" if math.isnan(slope) else f"{slope:.4g} {by}" + ("" if unit == "1" else f" per {unit}")
-    derivative = derivative.replace("**2", "²")
+    derivative = derivative.replace("**2", "²").replace("ohm*m", "Ω·m").replace("m*K", "m·K")
     value = "" if math.isnan(given) else (f"{given:.4g}" if unit == "1" else show(given, unit, 4))
     return facts["words"][key], value, f"{relative:+.3g}", derivative
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -184,10 +184,10 @@ FAR = 25.0
 """Distance in pixel sides from which five-point averages serve: their error there is about
 0.7/FAR^6 = 3e-9."""
 
-_GAUSS = 6
+GAUSS = 6
 _PANEL = 1.5  # length in asinh(tan theta) on which 16 Gauss points of a function analytic in a strip of 1 give 1e-15
 _PANEL_GAUSS = 16
-_AVERAGE = np.array([-17.0, 308.0, 5178.0, 308.0, -17.0]) / 5760.0  # mean over a cell: 1 + d²/24 - 17 d⁴/5760
+AVERAGE = np.array([-17.0, 308.0, 5178.0, 308.0, -17.0]) / 5760.0  # mean over a cell: 1 + d²/24 - 17 d⁴/5760
 
 
 @dataclass(frozen=True)
@@ -220,20 +220,20 @@ def patch_coefficients(kernel: PointKernel, grid: Grid, angular: Angular = ISOTR
     if np.hypot((nx - 1) * dx, (ny - 1) * dy) > FAR * side:  # means over the five nearest nodes along x and along y
         x, y = np.arange(-2, nx + 2)[:, None] * dx, np.arange(-2, ny + 2)[None, :] * dy
         values = _values(kernel, x, y, angular)
-        along_x = sum(w * values[k : k + nx] for k, w in enumerate(_AVERAGE))
-        mean: RealArray = sum(w * along_x[:, k : k + ny] for k, w in enumerate(_AVERAGE))
+        along_x = sum(w * values[k : k + nx] for k, w in enumerate(AVERAGE))
+        mean: RealArray = sum(w * along_x[:, k : k + ny] for k, w in enumerate(AVERAGE))
         out = mean * grid.pixel_area
 
     x, y = grid.coordinates()
-    distance = np.hypot(x[: _reach(FAR, side, dx, nx)], y[:, : _reach(FAR, side, dy, ny)])
+    distance = np.hypot(x[: reached(FAR, side, dx, nx)], y[:, : reached(FAR, side, dy, ny)])
     i, j = np.nonzero((distance >= NEAR * side) & (distance < FAR * side))
-    node, weight = rule(_GAUSS)
+    node, weight = rule(GAUSS)
     across_x, across_y = 0.5 * dx * node[:, None], 0.5 * dy * node
     points = _values(kernel, (i * dx)[:, None, None] + across_x, (j * dy)[:, None, None] + across_y, angular)
     out[i, j] = np.einsum("kij,i,j->k", points, weight, weight) * 0.25 * grid.pixel_area
 
     i, j = np.nonzero(distance < NEAR * side)
-    near_x, near_y = _reach(NEAR, side, dx, nx), _reach(NEAR, side, dy, ny)
+    near_x, near_y = reached(NEAR, side, dx, nx), reached(NEAR, side, dy, ny)
     X, Y = np.broadcast_arrays((np.arange(near_x) + 0.5)[:, None] * dx, (np.arange(near_y) + 0.5)[None, :] * dy)
     below = _triangle(kernel, X, Y, angular.factor)
     above = _triangle(kernel, Y, X, lambda along, across: angular.factor(across, along))
@@ -246,33 +246,7 @@ def patch_coefficients(kernel: PointKernel, grid: Grid, angular: Angular = ISOTR
     return out
 
 
-def patch_sums(kernels: Sequence[PointKernel], grid: Grid, weights: RealArray) -> list[float]:
-    """Sum of ``weights`` (nx, ny) times the ``patch_coefficients`` of each of many isotropic
-    ``kernels``, all on the same distances; beyond ``FAR`` they cost nothing but their tables.
-    """
-    (nx, ny), (dx, dy) = grid.shape, grid.spacing
-    side = max(dx, dy)
-    x, y = grid.coordinates()
-    distant = np.hypot(x, y) >= FAR * side
-    across = np.where(distant, weights, 0.0)
-    # the averages of the far zone, transposed: from pixels to the nodes about them
-    nodes = np.zeros((nx + 4, ny + 4))
-    for j, w in enumerate(_AVERAGE):
-        for k, v in enumerate(_AVERAGE):
-            nodes[j : j + nx, k : k + ny] += w * v * across
-    r = np.hypot(np.arange(-2, nx + 2)[:, None] * dx, np.arange(-2, ny + 2)[None, :] * dy)
-    used = nodes != 0.0
-    r, nodes = r[used], nodes[used] * grid.pixel_area / (2.0 * np.pi)
-    moments = kernels[0].strength.moments(r, nodes / r) if r.size else np.zeros(())
-    near = _reach(FAR, side, dx, nx), _reach(FAR, side, dy, ny)
-    close, part = Grid(near, grid.spacing), np.where(distant, 0.0, weights)[: near[0], : near[1]]
-    return [
-        float((part * patch_coefficients(kernel, close)).sum() + (moments * kernel.strength.coefficients).sum())
-        for kernel in kernels
-    ]
-
-
-def _reach(limit: float, side: float, step: float, count: int) -> int:
+def reached(limit: float, side: float, step: float, count: int) -> int:
     """Number of pixels of size ``step`` within ``limit`` sides, at most ``count``."""
     return min(count, int(limit * side / step) + 1)
 
@@ -295,14 +269,28 @@ def _triangle(
 
     r ends at X/cos theta; with tan theta = sinh v, X/cos theta = X cosh v and d theta = dv/cosh v.
     """
+    along, across, weight = triangle_rule(length, width)
+    values = kernel.moment(length[..., None] / along) * along * factor(along, across)
+    return np.asarray((values * weight).sum(axis=-1))
+
+
+class TriangleRule(NamedTuple):
+    """Quadrature over the angle of triangles: cosine ``along`` the axis, sine ``across`` it, and
+    ``weight``, each (*shape of the lengths, points)."""
+
+    along: RealArray
+    across: RealArray
+    weight: RealArray
+
+
+def triangle_rule(length: RealArray, width: RealArray) -> TriangleRule:
+    """Rule for the triangles 0 < x < ``length`` below the diagonal to ``width``."""
     last = np.arcsinh(width / length)
     panels = int(np.ceil(last.max() / _PANEL))
     node, weight = rule(_PANEL_GAUSS)
     share = (np.arange(panels)[:, None] + 0.5 * (node + 1.0)).ravel() / panels
     v = last[..., None] * share
-    along, across = 1.0 / np.cosh(v), np.tanh(v)
-    values = kernel.moment(length[..., None] / along) * along * factor(along, across)
-    return values @ np.tile(0.5 * weight / panels, panels) * last
+    return TriangleRule(1.0 / np.cosh(v), np.tanh(v), last[..., None] * np.tile(0.5 * weight / panels, panels))
 
 
 # Plane strain: surface displacement of strips along y, from the spectrum of the body.

@@ -4,10 +4,10 @@ thicknesses."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import ClassVar, Literal, NamedTuple, TypeAlias
+from typing import Any, ClassVar, Literal, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,6 +29,7 @@ from .influence import (
     wavenumbers,
 )
 from .layered import (
+    LayerMatrices,
     Modulus,
     PlaneCompliance,
     PlaneVector,
@@ -86,56 +87,82 @@ def constants(stack: Layered) -> tuple[Constant, ...]:
     return tuple(found)
 
 
-class _Stepped(NamedTuple):
-    """Shear modulus, Poisson's ratio and thickness, one of them with an imaginary ``step``."""
-
-    G: Modulus
-    nu: Modulus
-    thickness: Modulus
-    step: float
-
-
-def _stepped(material: Elastic, thickness: float | None = None) -> Iterator[_Stepped]:
-    """Step in E, in nu, and where there is one in the ``thickness``."""
-    E, nu = material.youngs_modulus, material.poisson_ratio
-    yield _Stepped(0.5 * complex(E, _STEP * E) / (1.0 + nu), nu, thickness, _STEP * E)
-    complex_nu = complex(nu, _STEP)
-    yield _Stepped(0.5 * E / (1.0 + complex_nu), complex_nu, thickness, _STEP)
-    if thickness is not None:
-        yield _Stepped(material.shear_modulus, nu, complex(thickness, _STEP * thickness), _STEP * thickness)
-
-
 def normal_rates(stack: Layered, alpha: ArrayLike) -> RealArray:
     """Derivatives of C_zz(alpha) of the surface, m/Pa per unit of each of the ``constants``: an
     array (constants, *shape of alpha).
 
-    ``stack``: a reduced body; ``alpha``: wavenumbers in rad/m, > 0. All of them take about as long
-    as the compliance four times.
+    ``stack``: a reduced body; ``alpha``: wavenumbers in rad/m, > 0. All layers are computed at
+    once: of many the time goes into the overhead of arrays.
     """
-    alpha = np.asarray(alpha, dtype=float)
-    matrices = [
-        layer_matrices(
-            alpha, layer.thickness, shear_modulus=layer.material.shear_modulus, nu=layer.material.poisson_ratio
-        )
-        for layer in stack.layers
-    ]
-    below = interface_compliances(stack, alpha, matrices)
-    traction, rates = PlaneVector(np.zeros_like(alpha), np.ones_like(alpha), np.zeros_like(alpha)), []
-    for layer, own, under in zip(stack.layers, matrices, below[1:], strict=True):
-        for G, nu, thickness, step in _stepped(layer.material, layer.thickness):
-            if nu == layer.material.poisson_ratio and thickness == layer.thickness:  # the modulus is but their unit
-                moved = replace(own, g_alpha=G * alpha)
-            else:
-                moved = layer_matrices(alpha, thickness, shear_modulus=G, nu=nu)
-            rates.append(_answer(raised(under, moved, layer.interface), traction, step))
-        traction = lowered(traction, under, own, layer.interface)
+    alpha, layers = np.asarray(alpha, dtype=float), stack.layers
+    own = layer_matrices(
+        alpha,
+        _column([layer.thickness for layer in layers], alpha),
+        shear_modulus=_column([layer.material.shear_modulus for layer in layers], alpha),
+        nu=_column([layer.material.poisson_ratio for layer in layers], alpha),
+    )
+    by_layer = [_some(own, k) for k in range(len(layers))]
+    below = interface_compliances(stack, alpha, by_layer)
+    # on the top of each layer and of the base, under unit pressure on the surface
+    tractions = [PlaneVector(np.zeros_like(alpha), np.ones_like(alpha), np.zeros_like(alpha))]
+    for layer, matrices, under in zip(layers, by_layer, below[1:], strict=True):
+        tractions.append(lowered(tractions[-1], under, matrices, layer.interface))
+    rates = [_rates_of_layers(stack, alpha, own, _together(below[1:]), _together(tractions[:-1]))]
     if isinstance(stack.base, Elastic):
-        for G, nu, _, step in _stepped(stack.base):
-            rates.append(_answer(half_space(alpha, shear_modulus=G, nu=nu), traction, step))
-    return np.array(rates)
+        E, nu = stack.base.youngs_modulus, stack.base.poisson_ratio
+        steps = ((complex(E, _STEP * E), nu, _STEP * E), (E, complex(nu, _STEP), _STEP))
+        for modulus, ratio, step in steps:
+            of_base = half_space(alpha, shear_modulus=0.5 * modulus / (1.0 + ratio), nu=ratio)
+            rates.append(_answer(of_base, tractions[-1], step)[None])
+    return np.concatenate(rates)
 
 
-def _answer(below: PlaneCompliance, traction: PlaneVector, step: float) -> RealArray:
+def _column(values: Sequence[Modulus], alpha: RealArray) -> Any:
+    """One value for each layer, broadcast against ``alpha``."""
+    return np.array(values)[(...,) + (None,) * alpha.ndim]
+
+
+_Fields = TypeVar("_Fields", LayerMatrices, PlaneCompliance, PlaneVector)
+
+
+def _some(whole: _Fields, which: Any) -> _Fields:
+    """Those layers only of matrices, compliances or tractions of all."""
+    return type(whole)(*(getattr(whole, each.name)[which] for each in fields(whole)))
+
+
+def _rates_of_layers(
+    stack: Layered, alpha: RealArray, own: LayerMatrices, under: PlaneCompliance, carried: PlaneVector
+) -> RealArray:
+    """Derivatives to modulus, Poisson's ratio and thickness of each layer, (3 · layers, *shape of
+    alpha), from its ``own`` matrices, the compliance ``under`` it and the traction that is
+    ``carried`` by its top."""
+    layers = stack.layers
+    E = _column([layer.material.youngs_modulus for layer in layers], alpha)
+    nu = _column([layer.material.poisson_ratio for layer in layers], alpha)
+    h = _column([layer.thickness for layer in layers], alpha)
+    stepped_E, stepped_nu, stepped_h = E * complex(1.0, _STEP), nu + complex(0.0, _STEP), h * complex(1.0, _STEP)
+    moved = (
+        (replace(own, g_alpha=0.5 * stepped_E / (1.0 + nu) * alpha), _STEP * E),  # the modulus is but their unit
+        (layer_matrices(alpha, h, shear_modulus=0.5 * E / (1.0 + stepped_nu), nu=stepped_nu), _STEP),
+        (layer_matrices(alpha, stepped_h, shear_modulus=0.5 * E / (1.0 + nu), nu=nu), _STEP * h),
+    )
+    rates = np.empty((len(layers), 3, *alpha.shape))
+    for interface in dict.fromkeys(layer.interface for layer in layers):
+        which = [k for k, layer in enumerate(layers) if layer.interface == interface]
+        for kind, (matrices, step) in enumerate(moved):
+            top = raised(_some(under, which), _some(matrices, which), interface)
+            steps = step if isinstance(step, float) else step[which]
+            rates[which, kind] = _answer(top, _some(carried, which), steps)
+    return rates.reshape(-1, *alpha.shape)
+
+
+def _together(several: Sequence[_Fields]) -> _Fields:
+    """Arrays of several layers as one, (layers, *shape)."""
+    first = several[0]
+    return type(first)(*(np.stack([getattr(each, one.name) for each in several]) for one in fields(first)))
+
+
+def _answer(below: PlaneCompliance, traction: PlaneVector, step: float | RealArray) -> RealArray:
     """tau . dC tau of a compliance that was found with an imaginary ``step``."""
     L, z = traction.L, traction.z
     LL, zz, Lz = (np.imag(component) / step for component in (below.LL, below.zz, below.Lz))

@@ -240,13 +240,16 @@ class Correction(NamedTuple):
     """Vector ``d``, None where no step was possible; FFT ``pairs`` it took; whether the reduction
     was ``reached``.
 
-    ``open``: d holds a last step that ``on_step`` was not told of.
+    ``open``: d holds a last step that ``on_step`` was not told of. Else r - K d is the ``residual``
+    plus the ``level``, a constant, as the steps carry both along.
     """
 
     d: Any
     pairs: float
     reached: bool
     open: bool = False
+    residual: Any = None
+    level: float = 0.0
 
 
 class _Direction(NamedTuple):
@@ -301,7 +304,7 @@ def conjugate_gradients(
             on_step(_STEP_LENGTH)
         d, r, left = free.update_solution(_STEP_LENGTH, t, z, system.mean(total), d, r)
         first = begun.first
-    taken, length, reached = int(pending is not None), _STEP_LENGTH, False
+    taken, length, reached, level = int(pending is not None), _STEP_LENGTH, False, 0.0
     while taken < stopping.max_steps:
         if taken > 0 and ending is not None and free.largest(r) <= ending:
             return _unmeasured(system, r, last, length, Correction(d, taken * pairs, True, open=True))
@@ -325,8 +328,9 @@ def conjugate_gradients(
         taken, length = taken + 1, slope / curvature
         if on_step is not None:
             on_step(length)
+        level -= length * system.mean(total)
         d, r, left = free.update_solution(length, t, kt, system.mean(total), d, r)
-    found = Correction(d if taken else None, taken * pairs, reached)
+    found = Correction(d if taken else None, taken * pairs, reached, residual=r, level=level)
     return _unmeasured(system, r, last, further * length, found) if further and taken else found
 
 
