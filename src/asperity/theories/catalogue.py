@@ -22,8 +22,10 @@ from .friction.torsion import LubkinSphere, StickingTwist
 from .friction.tresca import TrescaDisc, TrescaLine, TrescaTwist
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr
 from .hardness.plasticity import LeastArea, PlasticityIndex, ProfilePlasticityIndex
+from .hardness.rate_hardness import RateHardness
 from .heating.estimates import BlokFlash, JaegerBand, MovingHeatSource, TianKennedy
 from .protocol import Described
+from .rough.bush_gibson_keogh import BushGibsonKeogh
 from .rough.discrete_summits import DiscreteSummits, IdenticalAsperities
 from .rough.elastic_plastic_laws import (
     ChangEtsionBogy,
@@ -34,6 +36,7 @@ from .rough.elastic_plastic_laws import (
     KogutEtsionSphere,
 )
 from .rough.elliptic_summits import AnisotropicSummits, BushGibsonThomas, GreenwoodElliptic, McCool
+from .rough.full_contact import FullContact
 from .rough.greenwood_williamson import (
     FittedGreenwoodWilliamson,
     GreenwoodTripp,
@@ -41,7 +44,9 @@ from .rough.greenwood_williamson import (
     KotwalBhushan,
 )
 from .rough.interacting_crests import InteractingCrests
-from .rough.majumdar_bhushan import MajumdarBhushan
+from .rough.interacting_summits import InteractingSummits, MergingSummits
+from .rough.majumdar_bhushan import BifractalMajumdarBhushan, MajumdarBhushan
+from .rough.mean_field_summits import MeanFieldSummits
 from .rough.persson import Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
 from .rough.rubber_friction import PerssonFriction
@@ -87,14 +92,20 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             IdenticalAsperities,
             DiscreteSummits,
             InteractingCrests,
+            InteractingSummits,
+            MergingSummits,
+            MeanFieldSummits,
             GreenwoodTripp,
             McCool,
             OnionsArchard,
             BushGibsonThomas,
             GreenwoodElliptic,
+            BushGibsonKeogh,
             AnisotropicSummits,
             MajumdarBhushan,
+            BifractalMajumdarBhushan,
             Persson,
+            FullContact,
         ),
         "Rubber friction": (PerssonFriction,),
         "Waves": (Westergaard, CrossedWaves, AdhesiveWave),
@@ -161,7 +172,14 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
         ),
         "Statistics of surfaces": (NayakSummits, SampledPeaks),
         "Stickiness": (PastewkaRobbins, PerssonTosatti),
-        "Plasticity and hardness": (PlasticityIndex, ProfilePlasticityIndex, LeastArea, EffectiveHardness, OliverPharr),
+        "Plasticity and hardness": (
+            PlasticityIndex,
+            ProfilePlasticityIndex,
+            LeastArea,
+            EffectiveHardness,
+            OliverPharr,
+            RateHardness,
+        ),
         "Menisci": (
             WetSummits,
             GrowingMenisci,
