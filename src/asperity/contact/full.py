@@ -64,8 +64,8 @@ class FullContactField:
     def holds(self, work: float = 0.0) -> bool:
         """Whether the bodies stay in full contact: without tension, or with a ``work`` of adhesion
         in J/m², >= 0, above the energy (Persson & Tosatti 2001)."""
-        adhesion = require.not_negative(work, "work of adhesion (J/m^2)")
-        return bool(self.pressure.min() >= 0.0) or adhesion > self.energy_per_area
+        gained = require.not_negative(work, "work of adhesion (J/m^2)")
+        return bool(self.pressure.min() >= 0.0) or gained > self.energy_per_area
 
 
 def full_contact(

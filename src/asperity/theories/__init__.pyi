@@ -120,6 +120,7 @@ from .statistics.heights import (
     PearsonHeights,
     TriangularHeights,
     UniformHeights,
+    WeibullHeights,
 )
 from .statistics.nayak import NayakSummits
 from .subsurface.hertz import (
@@ -348,6 +349,7 @@ __all__ = [
     "WearingSphere",
     "WearingWave",
     "Wedge",
+    "WeibullHeights",
     "Westergaard",
     "WetSummits",
     "WornCap",

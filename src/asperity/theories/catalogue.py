@@ -225,6 +225,19 @@ THEORIES: dict[str, type[Described]] = {theory.name: theory for family in FAMILI
 """Class of each theory by its name."""
 
 
+ALIASES: MappingProxyType[str, str] = MappingProxyType(
+    {
+        "ocallaghan-cameron": "greenwood-tripp",
+        "francis": "bush-gibson-thomas",
+        "mccool-elliptic": "bush-gibson-keogh",
+        "gw-i": "mean-field-summits",
+    }
+)
+"""Further names, with the theory that each amounts to: O'Callaghan & Cameron's (1976) statement on
+two rough surfaces, the elastic part of Francis's (1977) theory on summed moments, the statistics
+that McCool (1986) simulates, and the first order of interaction by the mean plane."""
+
+
 RECOGNISED: MappingProxyType[str, tuple[str, ...]] = MappingProxyType(
     {"elastic-plastic": ("hardness", "yield_stress"), "adhesive": ("work",)}
 )
@@ -239,10 +252,11 @@ that leaves it out."""
 
 
 def theory(name: str) -> type[Described]:
-    """Class of the theory called ``name``.
+    """Class of the theory called ``name``, which may be one of the ``ALIASES``.
 
     InputError if there is no such theory; the message names those most like it.
     """
+    name = ALIASES.get(name, name)
     if name not in THEORIES:
         near = nearest(name)
         like = f"Did you mean {' or '.join(near)}?" if near else f"They are {', '.join(THEORIES)}."
@@ -261,5 +275,7 @@ def nearest(name: str) -> list[str]:
         if word
         and (word in known or squeezed in ("".join(part[0] for part in known.split("-")), kind.__name__.lower()))
     ]
-    found += difflib.get_close_matches(word, THEORIES, n=3, cutoff=0.6)
+    found += [known for other, known in ALIASES.items() if word and word in other]
+    close = difflib.get_close_matches(word, [*THEORIES, *ALIASES], n=3, cutoff=0.6)
+    found += [ALIASES.get(known, known) for known in close]
     return list(dict.fromkeys(found))[:3]
