@@ -275,7 +275,7 @@ def nearest(name: str) -> list[str]:
         if word
         and (word in known or squeezed in ("".join(part[0] for part in known.split("-")), kind.__name__.lower()))
     ]
-    found += [known for other, known in ALIASES.items() if word and word in other]
+    found += [known for other, known in ALIASES.items() if len(word) > 3 and word in other]
     close = difflib.get_close_matches(word, [*THEORIES, *ALIASES], n=3, cutoff=0.6)
     found += [ALIASES.get(known, known) for known in close]
     return list(dict.fromkeys(found))[:3]

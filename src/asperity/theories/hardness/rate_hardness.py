@@ -50,19 +50,20 @@ _HARDNESS = (
 
 @dataclass(frozen=True)
 class RateHardness(Theory):
-    """Hardness at the strain rate v/(2 a) at which an asperity of contact radius a passes at the
-    speed v.
+    """Hardness at the strain rate r at which an asperity of contact radius a passes at the speed v.
 
-    Three laws, with the hardness H_0 at the reference rate ε̇_0:
+    Three laws, ``power``, ``johnson-cook`` and ``cowper-symonds``, with the hardness H_0 and the
+    reference rate r_0:
 
-        H = H_0 (ε̇/ε̇_0)^m  (power),
-        H = H_0 [1 + C ln(ε̇/ε̇_0)]  (johnson-cook, ε̇ > ε̇_0, else H_0),
-        H = H_0 [1 + (ε̇/ε̇_0)^(1/q)]  (cowper-symonds).
+        r = v/(2 a),
+        H = H_0 (r/r_0)^m,
+        H = H_0 [1 + C ln(r/r_0)]  (r > r_0),
+        H = H_0 [1 + (r/r_0)^(1/q)].
 
-    ``sensitivity`` is m, C or q. The spot of a load W has a = sqrt(W/(π H)), so that the hardness
-    follows from itself; for the power law
+    ``sensitivity`` is m, C or q. Johnson and Cook's law is H_0 below the reference rate. The spot
+    of a load W has a² = W/(π H), so that the hardness follows from itself; for the power law
 
-        H^(1-m/2) = H_0 (v/(2 ε̇_0))^m (π/W)^(m/2).
+        H^(1-m/2) = H_0 (v/(2 r_0))^m (π/W)^(m/2).
 
     The least spots are the hardest. Below the reference rate the power law gives less than H_0, as
     creep does; heating by the plastic work, and moduli that change with the rate, are not in it.

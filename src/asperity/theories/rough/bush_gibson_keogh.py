@@ -69,17 +69,17 @@ class _Directions:
 class BushGibsonKeogh(SeparationTheory):
     """Elliptical contacts on all summits of an anisotropic Gaussian surface, at any separation.
 
-    With the moments m_jk = <∂^j z/∂x^j …> of the spectrum in the principal axes of the gradient,
-    the curvatures of the summits are normal numbers of these covariances; at a point they are
-    independent of the gradient, and given them the height is normal with the mean μ and deviation
-    s,
+    m_jk are the mean products of wavenumbers q_x^j q_y^k over the spectrum, in the principal axes
+    of the gradient. At a point the second derivatives H are normal and independent of the gradient,
+    and given them the height is normal with the mean μ and the deviation s,
 
-        X/A_a = (1/(2 π sqrt(m_20 m_02))) ∫ |det H| p(H) <X_1> d³H,
+        X/A_a = (1/(2 π sqrt(m_20 m_02))) ∫ |H| p(H) <X_1> d³H,
         μ = -(m_20, m_02, 0) C^(-1) (z_xx, z_yy, z_xy),
-        s² = m_00 - (m_20, m_02, 0) C^(-1) (m_20, m_02, 0).
+        s² = m_00 - (m_20, m_02, 0) C^(-1) (m_20, m_02, 0),
 
-    Each summit of mean curvature κ_m, relative difference r of its curvatures and t = (h - μ)/s
-    gives F_0(t) to the number, and with f_A, f_P of Hertz's ellipse
+    over all H of a summit; |H| is the determinant, C the covariances of z_xx, z_yy and z_xy. Each
+    summit of mean curvature κ_m, relative difference r of its curvatures and t = (h - μ)/s gives
+    F_0(t) to the number, and with f_A, f_P of Hertz's ellipse
 
         A_1 = (π s/κ_m) f_A(r) F_1(t),  p_1 = (4/3) E* s^(3/2) κ_m^(-1/2) f_P(r) F_(3/2)(t).
 

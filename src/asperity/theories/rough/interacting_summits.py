@@ -25,7 +25,7 @@ from ..protocol import (
     curve,
 )
 from ..statistics.roughness import Roughness
-from .interacting_crests import CrestSystem, InteractingCrests
+from .interacting_crests import CrestSystem, InteractingCrests, settled, solve_complementarity
 
 # Hertz contacts on the summits of a map, each of its own radius, that displace each other: the
 # system of interacting crests with paraboloids and the displacement by the pressure of Hertz, in
@@ -41,7 +41,7 @@ def hertz_displacement(w: RealArray, radius: RealArray, distance: RealArray) -> 
     """Displacement u in m of the surface at the ``distance`` (…, n) in m from Hertz contacts of
     squared radii ``w`` (n,) in m² on summits of the ``radius`` (n,) in m.
 
-        u = (1/(π R)) [(2 a² - r²) asin(a/r) + a sqrt(r² - a²)]  (r > a),
+        u = (1/(π R)) [(2 a² - r²) arcsin(a/r) + a sqrt(r² - a²)]  (r > a),
         u = (a² - r²/2)/R  (r ≤ a).
     """
     a, outside = np.sqrt(w), distance > np.sqrt(w)
@@ -66,7 +66,8 @@ class HertzSystem(CrestSystem):
 
     def residual(self, w: RealArray, delta: RealArray) -> RealArray:
         """r_i in m."""
-        pressed = hertz_displacement(w, 0.5 / self.A1, self.distance).sum(axis=1)
+        touching = w > 0.0
+        pressed = hertz_displacement(w[touching], 0.5 / self.A1[touching], self.distance[:, touching]).sum(axis=1)
         return np.asarray(self.own_approach(w) + pressed - delta)
 
     def jacobian(self, w: RealArray, among: BoolArray) -> RealArray:
@@ -77,6 +78,9 @@ class HertzSystem(CrestSystem):
         matrix[np.diag_indices_from(matrix)] = self.own_slope(w)[among]
         return matrix
 
+
+_FRESH = 0.1
+"""Share of the area of a summit alone from which one starts that comes into contact."""
 
 _UNIT_DEPTH = 1.0
 """Depth in m of the crests that stand for paraboloids, whose radius alone counts."""
@@ -133,11 +137,11 @@ class InteractingSummits(Theory):
     of Hertz on another, at every contact
 
         a_i²/R_i = z_i - h - Σ_j u_(ij),  F_i = 4 E* a_i³/(3 R_i),
-        u = (1/(π R)) [(2 a² - r²) asin(a/r) + a sqrt(r² - a²)]  (r > a),
+        u = (1/(π R)) [(2 a² - r²) arcsin(a/r) + a sqrt(r² - a²)]  (r > a),
         u = (a² - r²/2)/R  (r ≤ a).
 
     Elsewhere the right side of the first is negative. ``displacement``: of Hertz's pressure
-    (``hertz``), of a point force F/(π E* r) (``point``), 0.4 % less load where neighbours first
+    (``hertz``), of a point force F/(π E* r) (``point``), 0.4 % more load where neighbours first
     touch, or ``none``. A cell that repeats (``period``) counts the nearest image of each other
     summit, and its mean plane sinks by no more.
 
@@ -296,13 +300,13 @@ class _Spots:
         pairs = int(np.count_nonzero(ratio > 1.0)) // 2
         return _Overlap(float(ratio[i, j]), (int(touching[i]), int(touching[j])), pairs)
 
-    def first_overlap(self, high: float, low: float) -> float:
-        """Separation in m at which contacts touch, which they do not at ``high`` and do at
-        ``low``."""
+    def first_overlap(self, high: float, low: float, near: RealArray) -> float:
+        """Separation in m at which contacts touch, which they do not at ``high`` and do at ``low``,
+        where the state is ``near``."""
         from scipy.optimize import brentq
 
         def excess(separation: float) -> float:
-            return self.overlap(self.squares(separation)).largest - 1.0
+            return self.overlap(self.squares(separation, near)).largest - 1.0
 
         unit = abs(self.crests.highest) + abs(low)
         return float(brentq(excess, high, low, xtol=1e-15 * unit, rtol=1e-14))
@@ -311,17 +315,19 @@ class _Spots:
         """Nominal pressure in Pa of contacts of squared radii ``w``."""
         return self.theory.E_star * 4.0 / 3.0 * float(np.sum(w**1.5 / self.radius)) / self.theory.area
 
-    def squares(self, separation: float) -> RealArray:
-        """(n,) squares of the contact radii in m²."""
-        w = np.zeros(self.height.size)
-        if separation < self.crests.highest:
-            found = self.crests.squared_radii(self.crests.highest - separation)
-            w[: found.size] = found
+    def squares(self, separation: float, near: RealArray) -> RealArray:
+        """(n,) squares of the contact radii in m², from those of a state ``near`` it."""
+        w, count = np.zeros(self.height.size), int(np.count_nonzero(self.height > separation))
+        if count:
+            system, own = self.crests._system(count), self.height[:count] - separation
+            fresh = near[:count] <= 0.0
+            start = np.where(fresh & (system.residual(near[:count], own) < 0.0), _FRESH * own / system.A1, near[:count])
+            w[:count] = settled(solve_complementarity, system, own, start)
         return w
 
-    def merged(self, separation: float, w: RealArray, pair: tuple[int, int]) -> _Spots:
+    def merged(self, separation: float, w: RealArray, pair: tuple[int, int]) -> tuple[_Spots, RealArray]:
         """The summits with one in place of the ``pair``, which has the area and the load of their
-        contacts at this ``separation``."""
+        contacts at this ``separation``; and the squares of the contact radii."""
         i, j = pair
         kept = np.ones(w.size, dtype=bool)
         kept[[i, j]] = False
@@ -344,7 +350,8 @@ class _Spots:
         old = (self.x, self.y, self.height, self.radius)
         columns = [np.append(values[kept], value) for values, value in zip(old, new, strict=True)]
         order = np.argsort(-columns[2], kind="stable")
-        return _Spots(self.theory, *(column[order] for column in columns))
+        squares = np.append(w[kept], w[i] + w[j])
+        return _Spots(self.theory, *(column[order] for column in columns)), squares[order]
 
 
 @dataclass(frozen=True, eq=False)
@@ -447,7 +454,8 @@ class MergingSummits(InteractingSummits):
             if separation > stretch.low:
                 break
         found = stretch.spots
-        return MergedSpots(found.x, found.y, found.height, found.radius, np.sqrt(found.squares(separation)))
+        squares = found.squares(separation, np.zeros(found.height.size))
+        return MergedSpots(found.x, found.y, found.height, found.radius, np.sqrt(squares))
 
     def _collected(self, asked: RealArray, reached: Callable[[_Stretch], BoolArray], way: str) -> Prediction:
         """Answers at the values ``asked``, each from the first stretch that has reached it."""
@@ -467,25 +475,26 @@ class MergingSummits(InteractingSummits):
     def _path(self) -> Iterator[_Stretch]:
         """Stretches from first touch on, without end."""
         spots, high = self._spots, self.highest
+        w: RealArray = np.zeros(np.size(self.height))
         approach = _FIRST_STEP * (float(np.ptp(spots.height)) or _FIRST_STEP * float(spots.radius[0]))
         while True:
             low = self.highest - approach
-            w = spots.squares(low)
+            w = spots.squares(low, w)
             found = spots.overlap(w)
             most = _AT_ONCE * float(np.count_nonzero(w))
             if found.largest > 1.0 and most < 1.0:
-                low = spots.first_overlap(high, low)
+                low = spots.first_overlap(high, low, w)
             else:
                 while found.count > most and high - low > _NARROWEST * approach:
                     low = 0.5 * (high + low)
-                    w = spots.squares(low)
+                    w = spots.squares(low, w)
                     found = spots.overlap(w)
             if found.largest > 1.0 and most < 1.0:
-                w = spots.squares(low)
+                w = spots.squares(low, w)
                 found = replace(spots.overlap(w), largest=math.inf)
             yield _Stretch(spots, high, low, spots.pressure(w))
             while found.largest > 1.0:
-                spots = spots.merged(low, w, found.pair)
-                w = spots.squares(low)
+                spots, w = spots.merged(low, w, found.pair)
+                w = spots.squares(low, w)
                 found = spots.overlap(w)
             high, approach = low, _STEP * (self.highest - low)
