@@ -212,6 +212,11 @@ class WeibullHeights(Declared):
     citation_keys: ClassVar[tuple[str, ...]] = ("Weibull1951",)
 
     @property
+    def label(self) -> str:
+        """Name with the shape, as commands take it."""
+        return f"{self.name}:{self.shape:g}"
+
+    @property
     def _scale(self) -> tuple[float, float]:
         """Mean and deviation of x."""
         first, second = (math.gamma(1.0 + n / self.shape) for n in (1, 2))
