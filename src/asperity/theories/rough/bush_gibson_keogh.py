@@ -24,8 +24,8 @@ from ..statistics.roughness import MomentTensor, Roughness
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
 
-# Means over the summits of a Gaussian surface with principal axes x and y (handbook of the field:
-# Bush, Gibson & Keogh 1979; Gibson 1982; McCool 1986). At a point the gradient and (z, ∇∇z) are
+# Means over the summits of a Gaussian surface with principal axes x and y (Bush, Gibson & Keogh
+# 1979; Gibson 1982; McCool 1986). At a point the gradient and (z, ∇∇z) are
 # independent; given the curvatures the height z is normal about a mean that is linear in them.
 #
 # Curvatures are scaled by the roots of m40 and m04,

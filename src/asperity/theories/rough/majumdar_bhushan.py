@@ -367,8 +367,8 @@ class MajumdarBhushan(FractalSpots):
         return np.asarray(np.maximum(0.0, np.log(spot_areas(largest)) - self._log_critical))
 
 
-# Two fractal dimensions, which meet at a length (Bhushan & Majumdar 1992, by the handbook of the
-# field: their joint of the branches was not at hand).
+# Two fractal dimensions, which meet at a length (Bhushan & Majumdar 1992; how they join the
+# branches was not at hand: heights and numbers of spots are taken to be continuous).
 
 
 @dataclass(frozen=True)
