@@ -16,6 +16,11 @@ CRESTS = {
     "wavelength": np.full(20, 1e-6),
     "area": 9e-12,
 }
+PLACED = {
+    "E_star": 1e11,
+    **{name: CRESTS[name] for name in ("x", "y", "height", "area")},
+    "radius": np.full(20, 1e-6),
+}
 WHEEL = {"semi_x": 6e-3, "semi_y": 4e-3, "shear": 8e10, "nu": 0.3}
 FILM = {"surface_tension": 0.072, "film_thickness": 1e-9}
 HEAT = {"flux": 1e8, "conductivity": 46.0, "diffusivity": 1.2e-5}
@@ -32,19 +37,33 @@ EXAMPLES = {
     "identical-asperities": {key: SUMMITS[key] for key in ("E_star", "density", "radius")},
     "discrete-summits": {"E_star": 1e11, "height": CRESTS["height"], "radius": np.full(20, 1e-6), "area": 9e-12},
     "interacting-crests": {"E_star": 1e11, **CRESTS},
+    "interacting-summits": PLACED,
+    "merging-summits": PLACED,
+    "mean-field-summits": {**SUMMITS, "side": 1e-5},
     "greenwood-tripp": SUMMITS,
     "mccool": {"E_star": 1e11, **MOMENTS},
     "onions-archard": {"E_star": 1e11, "rms_height": 1e-8, "correlation_length": 1e-6},
     "bush-gibson-thomas": {"E_star": 1e11, **MOMENTS},
     "greenwood-elliptic": {"E_star": 1e11, **MOMENTS},
+    "bush-gibson-keogh": {"E_star": 1e11, "m0": 1e-16, "m20": 2e-2, "m02": 1e-2, "m40": 8e12, "m04": 2e12},
     "anisotropic-summits": {"E_star": 1e11, "m0": 1e-16, "steepest": 2e-2, "gentlest": 1e-2},
     "majumdar-bhushan": {"dimension": 1.4, "roughness": 1e-10, "E_star": 1e11, "hardness": 8e9, "nominal_area": 1e-8},
+    "bifractal": {
+        "dimension": 1.4,
+        "roughness": 1e-10,
+        "E_star": 1e11,
+        "hardness": 8e9,
+        "nominal_area": 1e-8,
+        "fine_dimension": 1.6,
+        "crossover": 1e-6,
+    },
     "persson": {
         "E_star": 1e11,
         "rms_gradient": 4e-3,
         "q": np.array([1e6, 1e7, 1e8]),
         "psd": np.array([1e-30, 1e-33, 1e-36]),
     },
+    "full-contact": {"E_star": 1e11, "q": np.array([1e6, 1e7, 1e8]), "psd": np.array([1e-30, 1e-33, 1e-36])},
     "persson-friction": {
         "relaxed": 2e6,
         "moduli": np.array([1e7, 2e7]),
@@ -128,6 +147,7 @@ EXAMPLES = {
     "least-area": {"hardness": 8e9},
     "effective-hardness": {"coating": 15e9, "substrate": 9e9, "modulus_ratio": 0.7},
     "oliver-pharr": {"load": 1e-3, "depth": 1e-7, "stiffness": 4e4},
+    "rate-hardness": {"hardness": 3e9, "law": "johnson-cook", "sensitivity": 0.014, "reference_rate": 1.0},
     "statistical-meniscus": {**SUMMITS, **FILM, "skewness": 0.3, "kurtosis": 3.5},
     "kinetic-meniscus": {**SUMMITS, **FILM, "viscosity": 0.1, "hamaker_constant": 5e-20},
     "droplet-meniscus": {"radius": 1e-6, "surface_tension": 0.072, "contact_angle": 0.5, "immersion": 5e-9},
@@ -235,6 +255,9 @@ RANGES = {
     "cycles": (0.0, 1e5),
     "scar_radius": (0.0, 1e-3),
     "radius": (2e-6, 1e-4),
+    "spot": (1e-18, 1e-12),
+    "wavenumber": (2e6, 1e8),
+    "rate": (1e-3, 1e9),
 }
 """Between what the arguments run."""
 

@@ -19,7 +19,7 @@ from .surfaces.generate.deterministic import (
 )
 from .surfaces.generate.digital_filter import EndlessSurface, digital_filter, endless
 from .surfaces.generate.gaussian import gaussian
-from .surfaces.generate.non_gaussian import HeightMoments, HeightsOf, TwoLevels, rank_ordered, translated
+from .surfaces.generate.non_gaussian import HeightMoments, HeightsOf, TwoLevels, Weibull, rank_ordered, translated
 from .surfaces.generate.power_laws import PlateauPSD, RmsHeight, RmsSlope
 from .surfaces.generate.spectra import MeasuredSpectrum, SelfAffine, Spectrum, TabulatedSpectrum, TwoSlopes, spectrum_of
 from .surfaces.profile_conversion import surface_of_profile
@@ -39,6 +39,7 @@ __all__ = [
     "TabulatedSpectrum",
     "TwoLevels",
     "TwoSlopes",
+    "Weibull",
     "bimodal",
     "bisinusoid",
     "cone",

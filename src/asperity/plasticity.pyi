@@ -1,4 +1,5 @@
 from .contact.law import Hardness, HardWall
+from .physics.hardness.at_speed import ContactAtSpeed, solve_at_speed
 from .physics.hardness.layered import LayeredHardness
 from .physics.hardness.plastic_load import PlasticLoad, plastic_load
 from .physics.plastic_flow.answer import PlasticBody, PlasticZone
@@ -8,6 +9,7 @@ from .solids.strength import plastic_parts, plastic_solid
 
 __all__ = [
     "J2",
+    "ContactAtSpeed",
     "HardWall",
     "Hardness",
     "LayeredHardness",
@@ -22,4 +24,5 @@ __all__ = [
     "plastic_load",
     "plastic_parts",
     "plastic_solid",
+    "solve_at_speed",
 ]

@@ -126,7 +126,7 @@ from .surfaces.profile_spectra import (
 )
 from .surfaces.profile_summary import ProfileCharacterisation, characterise_profile
 from .theories.rough.deciding_waves import DecidingWaves, deciding_waves
-from .theories.statistics.roughness import Roughness
+from .theories.statistics.roughness import MomentCovariance, Roughness
 
 __all__ = [
     "DROP_1E",
@@ -150,6 +150,7 @@ __all__ = [
     "HybridParameters",
     "MapPieces",
     "MaterialRatioCurve",
+    "MomentCovariance",
     "Moments",
     "PowerSpectrum",
     "ProfileCharacterisation",

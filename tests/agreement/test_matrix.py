@@ -13,12 +13,13 @@ from agreement.matrix import MATRIX as ROUGH_SURFACES
 from agreement.matrix import Agreement
 from agreement.sealing import SEALING
 from agreement.single_contacts import SINGLE_CONTACTS
+from agreement.summits import SUMMITS
 from agreement.wear import WEAR
 from reference_data import every_row
 
 from asperity.theories.catalogue import THEORIES
 
-MATRIX = (*ROUGH_SURFACES, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE, *HEATING, *SEALING, *WEAR)
+MATRIX = (*ROUGH_SURFACES, *SUMMITS, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE, *HEATING, *SEALING, *WEAR)
 PAGE = Path(__file__).parents[2] / "docs/reference/agreement.md"
 
 

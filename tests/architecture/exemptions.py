@@ -183,6 +183,12 @@ CACHES: dict[str, str] = {
         "follows from the unit; the unit of an expression is sought among the 25 of the package, each of which takes "
         "20 µs"
     ),
+    "asperity.theories.rough.bush_gibson_keogh._log_ellipse": (
+        "one table of ellipses, which takes 5 ms to build and does not change"
+    ),
+    "asperity.theories.rough.bush_gibson_keogh._log_moment": (
+        "four tables of moments of the normal distribution, which take 0.1 s to build and do not change"
+    ),
     "asperity.core.units._registry": (
         "pint's registry takes a tenth of a second to build and does not change afterwards"
     ),

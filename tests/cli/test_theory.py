@@ -288,3 +288,26 @@ def test_square_brackets_of_formulas_stand_in_the_help(run: Runner, name: str) -
     page = "".join(run("theory", name, "--help").stdout.split())
     assert formulas
     assert [formula for formula in formulas if "".join(formula.split()) not in page] == []
+
+
+def test_spots_of_a_fractal_surface_by_size(run: Runner) -> None:
+    """The cumulative distribution, and the shares of elastic spots beside area and pressure."""
+    made = ("--dimension", "1.4", "--roughness", "0.01nm", "--E-star", "100GPa", "--hardness", "8GPa")
+    model = theory("majumdar-bhushan")(1.4, 1e-11, 1e11, 8e9, 1e-6)
+    fractal = ("theory", "majumdar-bhushan", *made, "--nominal-area", "1mm**2", "--json")
+    spots = json.loads(run(*fractal, "--spot", "1e-16m**2..1e-10m**2", "--points", "4", "--pressure", "1MPa").stdout)
+    found = {name: column["values"] for name, column in spots["columns"].items()}
+    expected = model.at_spot(np.geomspace(1e-16, 1e-10, 4), 1e6)
+    assert found["number"] == pytest.approx(expected.number)
+    assert found["share_below"] == pytest.approx(expected.share_below)
+    assert found["elastic"] == expected.elastic.tolist()
+    along = json.loads(run(*fractal, "--pressure", "1MPa").stdout)
+    assert along["columns"]["elastic_load_share"]["values"] == pytest.approx(model.at_pressure(1e6).elastic_load_share)
+
+
+def test_heights_of_weibull_and_further_names(run: Runner) -> None:
+    text = run("theory", "greenwood-williamson", *SUMMITS, "--heights", "weibull:2", "--pressure", "1MPa").stdout
+    assert "weibull:2" in text
+    assert subject_of(run("theory", "greenwood-williamson", *SUMMITS, "--heights", "weibull:x", "--pressure", "1MPa"))
+    moments = ("--E-star", "100GPa", "--m0", "1e-16m**2", "--m2", "0.01", "--m4", "2e12m**-2", "--pressure", "1MPa")
+    assert run("theory", "francis", *moments).stdout == run("theory", "bush-gibson-thomas", *moments).stdout

@@ -23,7 +23,7 @@ from ..core.parameters import REQUIRED, Parameter, parameters
 from ..core.units import show
 from ..core.values import Flag, Number, Text, Values, Whole
 from ..io.atomic import require_new_files
-from ..io.records import answer_record, catalogue_record, save_table
+from ..io.records import answer_record, catalogue_record, named, save_table
 from ..plots.comparison import save_answer_plot
 from ..run.build import body_of_text
 from ..solids.elastic import Rigid
@@ -307,7 +307,7 @@ def print_answer(found: Evaluation, *, as_json: bool) -> None:
             text = "not given"
         elif text is None and isinstance(value, int | float):
             text = show(float(value), item.unit if item.unit != "m^(1-n)" else "")
-        rows.append((item.help, str(getattr(value, "name", value)) if text is None else text))
+        rows.append((item.help, named(value) if text is None else text))
     _print_table(theory.title, table("", rows))
     if found.numbers:
         numbers = [(column.label, show(value, column.unit)) for column, value in found.numbers]

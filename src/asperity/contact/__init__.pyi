@@ -2,6 +2,7 @@ from ..core.status import Advice
 from ..parts.advice import advise, review
 from .boundary import Boundary, Free, FreeLine, Periodic
 from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
+from .full import FullContactField, full_contact
 from .history import EnergyBalance, History, HistoryResult, ramps
 from .line_contact import line_problem
 from .problem import ContactProblem, Flat
@@ -22,6 +23,7 @@ __all__ = [
     "Force",
     "Free",
     "FreeLine",
+    "FullContactField",
     "History",
     "HistoryResult",
     "Keep",
@@ -33,6 +35,7 @@ __all__ = [
     "TimeSteps",
     "Unloaded",
     "advise",
+    "full_contact",
     "line_problem",
     "ramps",
     "review",

@@ -16,7 +16,13 @@ from ..surfaces.characterise.correlation import (
     fractal_roughness,
 )
 from ..surfaces.characterise.heights import deviations, height_parameters, rms_height
-from ..surfaces.characterise.moments import DifferenceMoments, SpectralMoments, difference_moments, spectral_moments
+from ..surfaces.characterise.moments import (
+    DifferenceMoments,
+    SpectralMoments,
+    difference_moments,
+    mixed_moments,
+    spectral_moments,
+)
 from ..surfaces.characterise.spectral_fit import MEASURED_MODEL_ERROR, fit_spectrum
 from ..surfaces.characterise.spectrum import PowerSpectrum, power_spectrum, profile_spectrum, radial_spectrum
 from ..surfaces.characterise.summits import profile_peaks, summits
@@ -69,7 +75,9 @@ def roughness_of(surface: Surface | Profile, *, moments: str = "auto", neighbour
     else:
         found = near = difference_moments(surface)
         slopes = near.slope_tensor
-        tensor = MomentTensor(slopes.xx, slopes.xy, slopes.yy, m40=near.m4_x, m04=near.m4_y)
+        tensor = MomentTensor(
+            slopes.xx, slopes.xy, slopes.yy, m40=near.m4_x, m04=near.m4_y, **mixed_moments(surface)._asdict()
+        )
     peaks, covariance = summits(surface, neighbours), autocovariance(surface)
     listed = None
     if peaks.count:

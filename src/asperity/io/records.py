@@ -109,6 +109,11 @@ def _plain(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
+def named(value: Any) -> str:
+    """What a command calls a ``value``: its label or name, else its text."""
+    return str(getattr(value, "label", getattr(value, "name", value)))
+
+
 def _input(item: Parameter, value: Any) -> Any:
     """Value of an input: its word where it has one, a list of many."""
     for word, choice in item.words.items():
@@ -118,7 +123,7 @@ def _input(item: Parameter, value: Any) -> Any:
         return [_plain(number) for number in np.asarray(value, dtype=float)]
     if isinstance(value, int | float):
         return _plain(float(value))
-    return None if value is None else str(getattr(value, "name", value))
+    return None if value is None else named(value)
 
 
 # A characterisation as plain numbers and lists, fit for JSON.

@@ -39,6 +39,7 @@ from .hardness.plasticity import (
     summit_plasticity_index,
     yield_coefficient,
 )
+from .hardness.rate_hardness import RateHardness
 from .hardness.unloading import (
     IndentationAnalysis,
     UnloadingFit,
@@ -55,6 +56,7 @@ from .heating.impedance import HeatConductor, HeatLayer
 from .heating.sources import BandSource, EllipticSource, MovingSource, RectangularSource, disc_source
 from .heating.thermoelastic import critical_wavelength
 from .protocol import ContactAnswer, Limit, Prediction
+from .rough.bush_gibson_keogh import BushGibsonKeogh
 from .rough.discrete_summits import DiscreteSummits, IdenticalAsperities
 from .rough.elastic_plastic_laws import (
     ChangEtsionBogy,
@@ -66,6 +68,7 @@ from .rough.elastic_plastic_laws import (
     KogutEtsionSphere,
 )
 from .rough.elliptic_summits import AnisotropicSummits, BushGibsonThomas, GreenwoodElliptic, McCool
+from .rough.full_contact import FullContact
 from .rough.greenwood_williamson import (
     FittedGreenwoodWilliamson,
     GreenwoodTripp,
@@ -75,8 +78,10 @@ from .rough.greenwood_williamson import (
     separation_at_plastic_onset,
 )
 from .rough.interacting_crests import InteractingCrests
+from .rough.interacting_summits import InteractingSummits, MergingSummits
 from .rough.line_contact import full_contact_pressure, persson_line_area, wave_line_area
-from .rough.majumdar_bhushan import MajumdarBhushan
+from .rough.majumdar_bhushan import BifractalMajumdarBhushan, MajumdarBhushan
+from .rough.mean_field_summits import MeanFieldSummits, sunk
 from .rough.persson import IsotropicSpectrum, Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
 from .rough.rubber_friction import PerssonFriction, RubberFriction, rubber_friction
@@ -115,6 +120,7 @@ from .statistics.heights import (
     PearsonHeights,
     TriangularHeights,
     UniformHeights,
+    WeibullHeights,
 )
 from .statistics.nayak import NayakSummits
 from .subsurface.hertz import (
@@ -174,9 +180,11 @@ __all__ = [
     "ArrayAnswer",
     "BandSource",
     "BeltStickSlip",
+    "BifractalMajumdarBhushan",
     "BlokFlash",
     "Boussinesq",
     "BracketedFlow",
+    "BushGibsonKeogh",
     "BushGibsonThomas",
     "CarterRolling",
     "Cerruti",
@@ -218,6 +226,7 @@ __all__ = [
     "FreeVibration",
     "FrictionalIndenter",
     "FrictionalPunch",
+    "FullContact",
     "FullerTabor",
     "GasFlow",
     "GaussianHeights",
@@ -242,6 +251,7 @@ __all__ = [
     "IdenticalAsperities",
     "IndentationAnalysis",
     "InteractingCrests",
+    "InteractingSummits",
     "IsotropicSpectrum",
     "JacksonGreen",
     "JacksonGreenSphere",
@@ -263,8 +273,10 @@ __all__ = [
     "MajumdarBhushan",
     "MaugisDugdale",
     "McCool",
+    "MeanFieldSummits",
     "MeanGapJoint",
     "MeniscusGrowth",
+    "MergingSummits",
     "MindlinLine",
     "MindlinPoint",
     "MindlinWave",
@@ -292,6 +304,7 @@ __all__ = [
     "PowerLawIndenter",
     "Prediction",
     "ProfilePlasticityIndex",
+    "RateHardness",
     "RectangularSource",
     "RoughnessWindow",
     "RubberFriction",
@@ -336,6 +349,7 @@ __all__ = [
     "WearingSphere",
     "WearingWave",
     "Wedge",
+    "WeibullHeights",
     "Westergaard",
     "WetSummits",
     "WornCap",
@@ -390,6 +404,7 @@ __all__ = [
     "strip_pressure",
     "strip_shear",
     "summit_plasticity_index",
+    "sunk",
     "tabor_parameter",
     "tangential_modulus",
     "theory",

@@ -22,8 +22,10 @@ from .friction.torsion import LubkinSphere, StickingTwist
 from .friction.tresca import TrescaDisc, TrescaLine, TrescaTwist
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr
 from .hardness.plasticity import LeastArea, PlasticityIndex, ProfilePlasticityIndex
+from .hardness.rate_hardness import RateHardness
 from .heating.estimates import BlokFlash, JaegerBand, MovingHeatSource, TianKennedy
 from .protocol import Described
+from .rough.bush_gibson_keogh import BushGibsonKeogh
 from .rough.discrete_summits import DiscreteSummits, IdenticalAsperities
 from .rough.elastic_plastic_laws import (
     ChangEtsionBogy,
@@ -34,6 +36,7 @@ from .rough.elastic_plastic_laws import (
     KogutEtsionSphere,
 )
 from .rough.elliptic_summits import AnisotropicSummits, BushGibsonThomas, GreenwoodElliptic, McCool
+from .rough.full_contact import FullContact
 from .rough.greenwood_williamson import (
     FittedGreenwoodWilliamson,
     GreenwoodTripp,
@@ -41,7 +44,9 @@ from .rough.greenwood_williamson import (
     KotwalBhushan,
 )
 from .rough.interacting_crests import InteractingCrests
-from .rough.majumdar_bhushan import MajumdarBhushan
+from .rough.interacting_summits import InteractingSummits, MergingSummits
+from .rough.majumdar_bhushan import BifractalMajumdarBhushan, MajumdarBhushan
+from .rough.mean_field_summits import MeanFieldSummits
 from .rough.persson import Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
 from .rough.rubber_friction import PerssonFriction
@@ -87,14 +92,20 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             IdenticalAsperities,
             DiscreteSummits,
             InteractingCrests,
+            InteractingSummits,
+            MergingSummits,
+            MeanFieldSummits,
             GreenwoodTripp,
             McCool,
             OnionsArchard,
             BushGibsonThomas,
             GreenwoodElliptic,
+            BushGibsonKeogh,
             AnisotropicSummits,
             MajumdarBhushan,
+            BifractalMajumdarBhushan,
             Persson,
+            FullContact,
         ),
         "Rubber friction": (PerssonFriction,),
         "Waves": (Westergaard, CrossedWaves, AdhesiveWave),
@@ -161,7 +172,14 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
         ),
         "Statistics of surfaces": (NayakSummits, SampledPeaks),
         "Stickiness": (PastewkaRobbins, PerssonTosatti),
-        "Plasticity and hardness": (PlasticityIndex, ProfilePlasticityIndex, LeastArea, EffectiveHardness, OliverPharr),
+        "Plasticity and hardness": (
+            PlasticityIndex,
+            ProfilePlasticityIndex,
+            LeastArea,
+            EffectiveHardness,
+            OliverPharr,
+            RateHardness,
+        ),
         "Menisci": (
             WetSummits,
             GrowingMenisci,
@@ -207,6 +225,19 @@ THEORIES: dict[str, type[Described]] = {theory.name: theory for family in FAMILI
 """Class of each theory by its name."""
 
 
+ALIASES: MappingProxyType[str, str] = MappingProxyType(
+    {
+        "ocallaghan-cameron": "greenwood-tripp",
+        "francis": "bush-gibson-thomas",
+        "mccool-elliptic": "bush-gibson-keogh",
+        "gw-i": "mean-field-summits",
+    }
+)
+"""Further names, with the theory that each amounts to: O'Callaghan & Cameron's (1976) statement on
+two rough surfaces, the elastic part of Francis's (1977) theory on summed moments, the statistics
+that McCool (1986) simulates, and the first order of interaction by the mean plane."""
+
+
 RECOGNISED: MappingProxyType[str, tuple[str, ...]] = MappingProxyType(
     {"elastic-plastic": ("hardness", "yield_stress"), "adhesive": ("work",)}
 )
@@ -221,10 +252,11 @@ that leaves it out."""
 
 
 def theory(name: str) -> type[Described]:
-    """Class of the theory called ``name``.
+    """Class of the theory called ``name``, which may be one of the ``ALIASES``.
 
     InputError if there is no such theory; the message names those most like it.
     """
+    name = ALIASES.get(name, name)
     if name not in THEORIES:
         near = nearest(name)
         like = f"Did you mean {' or '.join(near)}?" if near else f"They are {', '.join(THEORIES)}."
@@ -243,5 +275,7 @@ def nearest(name: str) -> list[str]:
         if word
         and (word in known or squeezed in ("".join(part[0] for part in known.split("-")), kind.__name__.lower()))
     ]
-    found += difflib.get_close_matches(word, THEORIES, n=3, cutoff=0.6)
+    found += [known for other, known in ALIASES.items() if len(word) > 3 and word in other]
+    close = difflib.get_close_matches(word, [*THEORIES, *ALIASES], n=3, cutoff=0.6)
+    found += [ALIASES.get(known, known) for known in close]
     return list(dict.fromkeys(found))[:3]

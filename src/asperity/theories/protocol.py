@@ -22,7 +22,7 @@ from ..core.late import Tabled
 from ..core.parameters import Declared, Help, Parameter, parameters
 from ..core.quantity import Quantity
 from ..core.values import Choice, Length, Number, Positive, Real, SignedLength
-from .statistics.heights import NAMED_HEIGHTS, SummitHeights
+from .statistics.heights import NAMED_HEIGHTS, SummitHeights, WeibullHeights
 from .statistics.roughness import Roughness
 
 Modulus: TypeAlias = Annotated[
@@ -43,8 +43,32 @@ HeightDeviation: TypeAlias = Annotated[Length, "standard deviation σ_s of the s
 MeanHeight: TypeAlias = Annotated[SignedLength, "mean z̄_s of the summit heights above the mean plane of the surface"]
 SummitSkewness: TypeAlias = Annotated[Real, "skewness of the summit heights"]
 SummitKurtosis: TypeAlias = Annotated[Positive, "kurtosis of the summit heights, 3 for Gaussian ones"]
+
+
+class _NamedHeights(Choice):
+    """The words of ``NAMED_HEIGHTS``, and ``weibull:K`` for the shape K of Weibull's
+    distribution."""
+
+    @property
+    def rule(self) -> str:
+        """What a value must be, in words."""
+        return f"{super().rule}, or weibull:K with a shape K such as weibull:2"
+
+    def read(self, value: Any, what: str) -> Any:
+        """What a word stands for."""
+        if isinstance(value, str) and value.strip().lower().startswith("weibull:"):
+            try:
+                shape = float(value.partition(":")[2])
+            except ValueError:
+                raise InputError(f"{what} must be {self.rule}, but is {value!r}.") from None
+            return WeibullHeights(shape)
+        return super().read(value, what)
+
+
 HeightsLaw: TypeAlias = Annotated[
-    SummitHeights, Choice(dict(NAMED_HEIGHTS), others=True), "distribution of the standardised summit heights"
+    SummitHeights,
+    _NamedHeights(dict(NAMED_HEIGHTS), others=True),
+    "distribution of the standardised summit heights: one of the words, or weibull:K with a shape K",
 ]
 PoissonOfSolid: TypeAlias = Annotated[float, Number(least=0.0, most=0.5)]
 

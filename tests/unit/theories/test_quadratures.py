@@ -149,19 +149,22 @@ def finer(breaks: np.ndarray, nodes: int) -> tuple[np.ndarray, np.ndarray]:
 
 LEFT_OUT = {
     "blok-flash",
+    "bush-gibson-keogh",
     "bush-gibson-thomas",
     "frictional-indenter",
     "frictional-punch",
     "greenwood-elliptic",
     "interacting-crests",
+    "interacting-summits",
+    "merging-summits",
     "jaeger-band",
     "jkr-coated-sphere",
     "moving-source",
     "onions-archard",
     "statistical-meniscus",
 }
-"""Theories whose scan takes a minute or more each, one that sums over crests, and one that answers
-the place of a flat maximum, which has half of the digits."""
+"""Theories whose scan takes a minute or more each, those that sum over summits, and one that
+answers the place of a flat maximum, which has half of the digits."""
 SCANNED = sorted(set(THEORIES) - LEFT_OUT)
 
 
@@ -196,7 +199,10 @@ def test_no_integral_misses_a_layer(name: str, monkeypatch: pytest.MonkeyPatch) 
     ]
     given = EXAMPLES[name]
     changes = [{}] + [
-        {key: np.asarray(value) * factor} for key, value in given.items() for factor in (1e-6, 1e-3, 1e3, 1e6)
+        {key: np.asarray(value) * factor}
+        for key, value in given.items()
+        if not isinstance(value, str)
+        for factor in (1e-6, 1e-3, 1e3, 1e6)
     ]
     compared = 0
     for change in changes:

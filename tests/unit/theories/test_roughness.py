@@ -60,7 +60,8 @@ def test_where_the_moments_come_from():
     assert by_differences.m2 == pytest.approx(asp.roughness_of(periodic).m2 * sinc**2, rel=1e-10)
     # a measured map leaves out the wrapped differences
     assert asp.roughness_of(cut).m2 == pytest.approx(by_differences.m2, rel=0.02)
-    assert math.isnan(asp.roughness_of(cut).moments.m22)
+    found = asp.roughness_of(cut).moments
+    assert abs(found.m22) + abs(found.m31) + abs(found.m13) < 3e-3 * found.m40  # waves along x and along y alone
     with refused(InputError, "source of the moments"):
         asp.roughness_of(periodic, moments="guess")
 

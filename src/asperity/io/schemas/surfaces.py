@@ -498,7 +498,12 @@ SPECTRA: Mapping[str, Callable[..., Any]] = MappingProxyType(
 """What makes each kind of spectrum."""
 
 HEIGHTS: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {"moments": non_gaussian.HeightMoments, "measured": non_gaussian.HeightsOf, "two_levels": non_gaussian.TwoLevels}
+    {
+        "moments": non_gaussian.HeightMoments,
+        "measured": non_gaussian.HeightsOf,
+        "two_levels": non_gaussian.TwoLevels,
+        "weibull": non_gaussian.Weibull,
+    }
 )
 """What makes each kind of distribution of heights."""
 

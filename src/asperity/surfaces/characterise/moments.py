@@ -10,13 +10,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from ...core.spectral import mode_sum
 from ..surface import Surface, maps_only
 from .heights import rms_height
-from .slopes import increments, mean_of, rms_laplacian, rms_profile_curvature, rms_profile_slope
+from .slopes import (
+    increments,
+    mean_of,
+    rms_laplacian,
+    rms_profile_curvature,
+    rms_profile_slope,
+    second_differences,
+)
 from .spectrum import PowerSpectrum
 
 
@@ -109,6 +117,36 @@ def difference_moments(surface: Surface) -> DifferenceMoments:
         rms_laplacian=rms_laplacian(surface),
         slope_tensor=slope_tensor(surface),
     )
+
+
+class MixedMoments(NamedTuple):
+    """<h_xx h_xy>, <h_xx h_yy> and <h_yy h_xy> in 1/m²."""
+
+    m31: float
+    m22: float
+    m13: float
+
+
+@maps_only
+def mixed_moments(surface: Surface) -> MixedMoments:
+    """Mean products of the central second differences at the nodes where all exist.
+
+    As of ``difference_moments`` short waves are underestimated. NaN where no node has all of its
+    eight neighbours. Raises InputError for maps of fewer than three points along x or y.
+    """
+    xx, yy = (second_differences(surface, axis) for axis in "xy")
+    along_y = increments(surface, (0, 2))
+    if surface.periodic:
+        along_y = np.roll(along_y, 1, axis=1)
+        xy = np.roll(along_y, -1, axis=0) - np.roll(along_y, 1, axis=0)
+    else:
+        xx, yy, xy = xx[:, 1:-1], yy[1:-1], along_y[2:] - along_y[:-2]
+    dx, dy = surface.dx, surface.dy
+    pairs = ((xx, xy, 4.0 * dx**3 * dy), (xx, yy, dx**2 * dy**2), (yy, xy, 4.0 * dx * dy**3))
+    there = ~np.isnan(xx + yy + xy)
+    if not there.any():
+        return MixedMoments(math.nan, math.nan, math.nan)
+    return MixedMoments(*(float(np.mean(one[there] * other[there])) / unit for one, other, unit in pairs))
 
 
 @maps_only

@@ -20,7 +20,7 @@ from ...core.pearson import Pearson, require_possible
 from ...core.scipy_parts import optimize, special
 from ...core.spectral import RealTransform, mode_sum, thread_count
 from ...core.status import NoProgress, Progress
-from ...core.values import Count, Fraction, Positive, Real
+from ...core.values import Count, Fraction, Number, Positive, Real
 from ..surface import Surface, generated
 from .gaussian import CLIP_LIMIT, Spectrum, SurfaceSeed, filtered_noise, lattice_eigenvalues, negative_part
 from .power_laws import mean_square
@@ -331,6 +331,29 @@ class TwoLevels(Declared):
         """Words and numbers for the history of a surface."""
         distance = f"{self.separation:.4g} apart, the upper {self.upper_deviation:.4g} as wide"
         return f"two levels {distance} on {self.share:.4g} of the area"
+
+
+@dataclass(frozen=True)
+class Weibull(Declared):
+    """Heights of Weibull's distribution, p = k x^(k-1) exp(-x^k).
+
+    ``shape`` k: 1 exponential, 2 Rayleigh's, 3.6 nearly symmetric. ``upward`` false turns it over:
+    scattered valleys below a plateau, as of worn surfaces.
+    """
+
+    shape: Annotated[float, Number(above=0.1, most=100.0), "shape k"]
+    upward: Annotated[bool, "whether the long tail is above the mean"] = True
+    citation_keys: ClassVar[tuple[str, ...]] = ("Weibull1951",)
+
+    def sorted_heights(self, count: int) -> RealArray:
+        """Quantiles at (k - 1/2)/count."""
+        share = (np.arange(count) + 0.5) / count
+        heights: RealArray = (-np.log1p(-share)) ** (1.0 / self.shape)
+        return heights if self.upward else -heights[::-1]
+
+    def describe(self) -> str:
+        """Words and numbers for the history of a surface."""
+        return f"Weibull's heights of shape {self.shape:.4g}{'' if self.upward else ', turned over'}"
 
 
 # Surfaces whose heights are a function of a Gaussian field: any marginal distribution, at any

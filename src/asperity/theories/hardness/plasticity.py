@@ -15,7 +15,7 @@ from ...core.arrays import RealArray
 from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quantity import Quantity
-from ...core.values import HardnessValue, Length, Positive
+from ...core.values import HardnessValue, Length, Number, Positive
 from ..ask import PRESSURE, Way, asked
 from ..protocol import (
     HeightDeviation,
@@ -29,6 +29,7 @@ from ..protocol import (
 )
 from ..rough.greenwood_williamson import plastic_area_share, plastic_number_share
 from ..statistics.roughness import Roughness
+from ..subsurface.sliding_yield import sphere_yield_onset
 
 # Interferences at which a summit yields, and the plasticity indices made of them (Greenwood &
 # Williamson 1966; Bhushan 1998).
@@ -118,9 +119,22 @@ class PlasticityIndex(Theory):
     """Plasticity of Greenwood and Williamson's summits, the index of Chang, Etsion & Bogy, and what
     flows.
 
-        ψ = (E*/H) sqrt(σ_s/R),  ψ_c = sqrt(σ_s/ω_c),  ω_c = (π K H/(2 E*))² R,  K = 0.454 + 0.41 ν.
+        ψ = (E*/H) sqrt(σ_s/R),  ψ_c = sqrt(σ_s/ω_c),  ω_c = (π K H/(2 E*))² R,  K = 0.454 + 0.41 ν,
+        ψ_f = ψ p_0(0)/p_0(μ).
 
-    Below ψ = 0.6 contacts are elastic at any realistic load, above 1 plastic at any.
+    Below ψ = 0.6 contacts are elastic at any realistic load, above 1 plastic at any. ``friction``
+    brings first yield to a lower pressure p_0(μ) (``first-yield``): ψ_f then stands for ψ against
+    the same limits. A coating has such a ratio of its own, the pressure of first yield of the
+    coated contact over that of the half-space, both at the same friction: below 1 for a coating
+    that makes the contact yield earlier. Give it as ``yield_ratio``, with the contact modulus of
+    the coated body; ``asperity.first_yield`` of two solved contacts tells it.
+
+    Examples
+    --------
+    >>> summits = {"radius": 10e-6, "height_deviation": 5e-9}
+    >>> dragged = PlasticityIndex(115e9, **summits, hardness=6e9, friction=0.5)
+    >>> f"{dragged.index:.2f} without friction, {dragged.reduced_index:.2f} with it"
+    '0.43 without friction, 0.66 with it'
     """
 
     E_star: Modulus
@@ -131,11 +145,16 @@ class PlasticityIndex(Theory):
         PoissonOfSolid,
         Help("Poisson's ratio of the body that yields, 0 to 0.5; for the index of Chang, Etsion & Bogy", of="bodies"),
     ] = 0.3
+    friction: Annotated[float, Number(least=0.0), Help("friction coefficient", of="choice")] = 0.0
+    yield_ratio: Annotated[
+        Positive, Help("pressure at first yield with a coating over that without it", of="choice")
+    ] = 1.0
     name: ClassVar[str] = "plasticity-index"
     title: ClassVar[str] = "Plasticity indices of summits"
-    citation_keys: ClassVar[tuple[str, ...]] = ("Chang1987", "Greenwood1966")
+    citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Chang1987", "Greenwood1966", "Hamilton1983")
     numbers: ClassVar[tuple[Quantity, ...]] = (
         Quantity("index", "1", "ψ of Greenwood & Williamson: below 0.6 elastic, above 1 plastic"),
+        Quantity("reduced_index", "1", "ψ with friction and coating: below 0.6 elastic, above 1 plastic"),
         Quantity("critical_index", "1", "ψ_c of Chang, Etsion & Bogy: from first yield"),
         Quantity("nominal_interference", "m", "R (H/E*)²"),
         Quantity("critical_interference", "m", "displacement at first yield"),
@@ -156,10 +175,19 @@ class PlasticityIndex(Theory):
         _ = self.index, self.critical_index
 
     @classmethod
-    def of_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float, nu: float = 0.3) -> Self:
+    def of_roughness(
+        cls,
+        roughness: Roughness,
+        E_star: float,
+        *,
+        hardness: float,
+        nu: float = 0.3,
+        friction: float = 0.0,
+        yield_ratio: float = 1.0,
+    ) -> Self:
         """Indices of the summits of a map. InputError if the roughness holds no summits."""
         summits = roughness.of_summits(cls.name)
-        return cls(E_star, summits.mean_radius, summits.height_deviation, hardness, nu)
+        return cls(E_star, summits.mean_radius, summits.height_deviation, hardness, nu, friction, yield_ratio)
 
     @property
     def nominal_interference(self) -> float:
@@ -176,6 +204,12 @@ class PlasticityIndex(Theory):
     def index(self) -> float:
         """ψ = sqrt(σ_s/δ_p)."""
         return summit_plasticity_index(self.height_deviation, self.nominal_interference)
+
+    @property
+    def reduced_index(self) -> float:
+        """ψ over the ratios by which friction and a coating change the pressure at first yield."""
+        free, dragged = (sphere_yield_onset(self.nu, mu).peak_over_k for mu in (0.0, self.friction))
+        return self.index * free / (dragged * self.yield_ratio)
 
     @property
     def critical_index(self) -> float:
@@ -259,9 +293,11 @@ class LeastArea(Theory):
     A plastic contact has less area yet, p/H, but smooths itself and ends elastic with more. Both
     the real area and the real pressure should be low, so the elastic limit is the aim. Friction
     brings yield to the surface at a lower pressure: multiply ``plasticity_index`` by the ratio of
-    the pressures at first yield with and without it. A stiffer overcoat lowers the admissible
+    the pressures at first yield with and without it, which ``plasticity-index`` takes into its
+    reduced index. A stiffer overcoat lowers the admissible
     index, a more compliant one raises it, unless contacts are much larger than the overcoat is
-    thick. Hardness and modulus are those at the strain rate of a passing asperity.
+    thick. Hardness and modulus are those at the strain rate of a passing asperity
+    (``rate-hardness``).
     """
 
     hardness: Annotated[HardnessValue, Help("hardness H of the softer solid", of="bodies")]

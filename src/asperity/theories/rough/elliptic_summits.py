@@ -239,12 +239,14 @@ class BushGibsonThomas(_OnSummits):
         H_k(t) = (1 - ρ²)^(k/2) F_k[(D - ρ t)/sqrt(1 - ρ²)],
 
     f_A and f_P of Hertz's ellipse. The area tends to sqrt(2π) p/(E* h'_rms) at vanishing load, very
-    slowly for wide spectra (Carbone & Bottiglione 2008). InputError if m0 m4/m2² < 1.5.
+    slowly for wide spectra (Carbone & Bottiglione 2008). On the summed moments of two surfaces this
+    is the elastic part of Francis's (1977) theory of their sum; for the irreversible part take
+    ``kogut-etsion`` or ``jackson-green`` on the same moments. InputError if m0 m4/m2² < 1.5.
     """
 
     name: ClassVar[str] = "bush-gibson-thomas"
     title: ClassVar[str] = "Bush-Gibson-Thomas"
-    citation_keys: ClassVar[tuple[str, ...]] = ("Bush1975", "Carbone2008", "Nayak1971")
+    citation_keys: ClassVar[tuple[str, ...]] = ("Bush1975", "Carbone2008", "Francis1977", "Nayak1971")
     circles: ClassVar[bool] = False
 
 

@@ -121,9 +121,18 @@ def solve_complementarity(system: CrestSystem, delta: RealArray, start: RealArra
         touching = (w > 0.0) | (r < 0.0)
         if np.all(np.abs(r[touching]) <= _TOLERANCE * scale):
             return w
-        w[touching] -= np.linalg.solve(system.jacobian(w, touching), r[touching])
+        w[touching] -= _solved(system.jacobian(w, touching), r[touching])
         np.clip(w, 0.0, 0.999 * system.largest, out=w)
     raise _not_solved(system, w)
+
+
+def _solved(matrix: RealArray, right: RealArray) -> RealArray:
+    """Solution of a linear system, the shortest one where contacts within each other leave it
+    open."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right))
+    except np.linalg.LinAlgError:
+        return np.asarray(np.linalg.lstsq(matrix, right)[0])
 
 
 def solve_load(
@@ -147,7 +156,7 @@ def solve_load(
         if np.all(np.abs(r[touching]) <= _TOLERANCE * delta) and abs(excess) <= _TOLERANCE * total:
             return delta, w
         sides = np.stack([r[touching], np.ones(int(touching.sum()))], axis=1)
-        fall, rise = np.linalg.solve(system.jacobian(w, touching), sides).T
+        fall, rise = _solved(system.jacobian(w, touching), sides).T
         slope = system.load_slope(w)[touching]
         step = np.clip((slope @ fall - excess) / (slope @ rise), -0.5 * delta, delta)
         w[touching] += step * rise - fall
@@ -253,8 +262,9 @@ def _graded(values: RealArray, ratio: float) -> RealArray:
     rising = np.unique(values)
     parts = [rising[:1]]
     for low, high in itertools.pairwise(rising):
-        count = math.ceil(math.log(high / low) / math.log(ratio)) if low > 0.0 else 1
-        parts.append(np.append(low * (high / low) ** (np.arange(1, count) / count), high))
+        growth = high / low if low > 0.0 else 1.0
+        count = math.ceil(math.log(growth) / math.log(ratio))
+        parts.append(np.append(low * growth ** (np.arange(1, count) / count), high))
     return np.concatenate(parts)
 
 
@@ -459,6 +469,10 @@ class InteractingCrests(Theory):
             states.append((part, last))
         return [states[n] for n in np.searchsorted(path, deltas)]
 
+    def _distances(self, x: RealArray, y: RealArray) -> RealArray:
+        """Distances of crests at ``x``, ``y`` (n,) in m from each other, (n, n)."""
+        return np.asarray(np.hypot(np.subtract.outer(x, x), np.subtract.outer(y, y)))
+
     def _system(self, count: int, *, alone: bool = False) -> CrestSystem:
         """Equations of the ``count`` highest crests, ``alone`` without what they do to each
         other."""
@@ -468,7 +482,7 @@ class InteractingCrests(Theory):
         if alone or self.interaction == "off":
             coupling = np.zeros((count, count))
         else:
-            distance = np.hypot(np.subtract.outer(x, x), np.subtract.outer(y, y))
+            distance = self._distances(x, y)
             distance[np.diag_indices(count)] = np.inf
             if not np.all(distance > 0.0):
                 raise InputError("crests must lie at different places, but two of them coincide.")
@@ -485,7 +499,7 @@ class InteractingCrests(Theory):
         for n, (system, w) in enumerate(states):
             touching = w > 0.0
             if touching.any():
-                rates = np.linalg.solve(system.jacobian(w, touching), np.ones(int(touching.sum())))
+                rates = _solved(system.jacobian(w, touching), np.ones(int(touching.sum())))
                 sums[:, n] = system.loads(w).sum(), system.load_slope(w)[touching] @ rates
         sums *= self.E_star / self.area
         return prediction(

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, Protocol, Self
+from typing import Annotated, ClassVar, Protocol, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,8 +14,10 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.parameters import Declared
 from ...core.pearson import Pearson
-from ...core.quadrature import gauss
+from ...core.quadrature import gauss, geometric
+from ...core.values import Number
 
 # Distributions of summit heights and their one-sided moments F_m(D) = ∫_D^∞ (s - D)^m p(s) ds.
 #
@@ -194,6 +196,74 @@ class PearsonHeights:
         """F_m(D) for ``D`` of any shape, -1 < m < 4."""
         return self.curve.excess_moment(m, D)
 
+
+@dataclass(frozen=True)
+class WeibullHeights(Declared):
+    """p = k x^(k-1) exp(-x^k) of heights x above the lowest summit, standardised (Weibull 1951).
+
+    ``shape`` k: 1 is exponential with mean zero, 2 Rayleigh's distribution, 3.6 nearly symmetric;
+    ``upward`` false turns it over, so that the highest summits are alike and low ones scatter.
+    """
+
+    shape: Annotated[float, Number(least=1.0, most=100.0), "shape k"]
+    upward: Annotated[bool, "whether the long tail is above"] = True
+    name: ClassVar[str] = "weibull"
+    mean: ClassVar[float] = 0.0
+    citation_keys: ClassVar[tuple[str, ...]] = ("Weibull1951",)
+
+    @property
+    def label(self) -> str:
+        """Name with the shape, as commands take it."""
+        return f"{self.name}:{self.shape:g}"
+
+    @property
+    def _scale(self) -> tuple[float, float]:
+        """Mean and deviation of x."""
+        first, second = (math.gamma(1.0 + n / self.shape) for n in (1, 2))
+        return first, math.sqrt(second - first**2)
+
+    @property
+    def support(self) -> tuple[float, float]:
+        """Lowest and highest possible height."""
+        first, deviation = self._scale
+        end = first / deviation
+        return (-end, math.inf) if self.upward else (-math.inf, end)
+
+    def density(self, s: RealArray) -> RealArray:
+        """Probability density p(s), any shape."""
+        first, deviation = self._scale
+        x = first + deviation * (np.asarray(s, dtype=float) * (1.0 if self.upward else -1.0))
+        inside = np.where(x > 0.0, x, 1.0)
+        found = deviation * self.shape * inside ** (self.shape - 1.0) * np.exp(-(inside**self.shape))
+        return np.where(x > 0.0, found, 0.0)
+
+    def tail_moment(self, D: RealArray, m: float) -> RealArray:
+        """F_m(D) for ``D`` of any shape, -1 < m < 4: by the exponential number u = x^k, on panels
+        that grow from its least value."""
+        D = np.asarray(D, dtype=float)
+        first, deviation = self._scale
+        level = first + deviation * (D if self.upward else -D)
+        start = np.maximum(level, 0.0) ** self.shape
+        if self.upward:
+            t, weight = geometric(np.zeros_like(D), np.full_like(D, _WEIBULL_END))
+            x = (start[..., None] + t) ** (1.0 / self.shape)
+            # of near numbers by their ratio, whose logarithm keeps the digits
+            with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+                rise = level[..., None] * np.expm1(np.log1p(t / start[..., None]) / self.shape)
+            above = np.where(start[..., None] > 0.0, rise, x - level[..., None])
+            shares = weight * np.exp(-t - start[..., None])
+        else:  # x below the level, u from zero to its end
+            top = np.minimum(np.maximum(level, 0.0), _WEIBULL_END ** (1.0 / self.shape))
+            t, weight = geometric(np.zeros_like(D), 0.5 * top)
+            x = np.concatenate([t, top[..., None] - t], axis=-1)
+            above = np.concatenate([level[..., None] - t, (level - top)[..., None] + t], axis=-1)
+            pieces = np.concatenate([weight, weight], axis=-1)
+            shares = pieces * self.shape * x ** (self.shape - 1.0) * np.exp(-(x**self.shape))
+        return np.asarray(np.sum(shares * (np.maximum(above, 0.0) / deviation) ** m, axis=-1))
+
+
+_WEIBULL_END = 60.0
+"""Exponential number beyond the least, beyond which 1e-26 of the heights are left."""
 
 NAMED_HEIGHTS: tuple[tuple[str, SummitHeights], ...] = (
     ("gaussian", GaussianHeights()),

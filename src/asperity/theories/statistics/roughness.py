@@ -45,6 +45,28 @@ class MomentTensor:
         return mean + half, max(0.0, mean - half)
 
 
+@dataclass(frozen=True)
+class MomentCovariance:
+    """Mean products of height (``m0``, m²), slope (``m2``) and second derivative (``m4``, 1/m²) of
+    two surfaces that face each other, both positive toward the other body.
+
+    Zero for surfaces that know nothing of each other, negative for run-in pairs, whose crests lie
+    against valleys. Slopes and second derivatives are those of profiles, averaged over all
+    directions.
+    """
+
+    m0: float = 0.0
+    m2: float = 0.0
+    m4: float = 0.0
+
+    @classmethod
+    def of(cls, first: Roughness, second: Roughness, together: Roughness) -> MomentCovariance:
+        """From both surfaces and their sum, ``together``: half of what the moments of the sum are
+        more than those of its parts."""
+        parts = ("m0", "m2", "m4")
+        return cls(*(0.5 * (getattr(together, m) - getattr(first, m) - getattr(second, m)) for m in parts))
+
+
 @dataclass(frozen=True, eq=False)
 class Spectrum:
     """Radial power spectrum: ``psd`` (n,) in m⁴ at the wavenumbers ``q`` (n,), rising, in rad/m.
@@ -231,6 +253,20 @@ class Roughness(Tabled):
         require.positive(self.m4, "moment m4 (1/m^2)", fix)
         if not math.isnan(self.area):
             require.positive(self.area, "nominal area (m^2)")
+
+    def paired(self, other: Roughness, covariance: MomentCovariance = MomentCovariance()) -> Roughness:
+        """Roughness of the sum of this surface and the ``other``, against which a plane stands for
+        both: m = m_1 + m_2 + 2 c of each moment (Bhushan 1998, sec. 3.2).
+
+        It holds the moments, and the area of this surface. InputError if a moment of the sum is not
+        positive.
+        """
+        return Roughness(
+            self.m0 + other.m0 + 2.0 * covariance.m0,
+            self.m2 + other.m2 + 2.0 * covariance.m2,
+            self.m4 + other.m4 + 2.0 * covariance.m4,
+            area=self.area,
+        )
 
     @property
     def alpha(self) -> float:
