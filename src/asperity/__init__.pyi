@@ -57,6 +57,7 @@ from .physics.adhesion.law import ExponentialAdhesion as ExponentialAdhesion
 from .physics.friction.law import Coulomb as Coulomb
 from .physics.menisci.film import LiquidFilm as LiquidFilm
 from .physics.plastic_flow.law import PlasticFlow as PlasticFlow
+from .physics.prediction.predict import predict as predict
 from .physics.rolling.rolling import roll as roll
 from .physics.stress.compute import stress as stress
 from .physics.stress.yielding import first_yield as first_yield
@@ -76,7 +77,6 @@ from .solids.viscoelastic import Viscoelastic as Viscoelastic
 from .studies.calibrate import calibrate as calibrate
 from .studies.compare import compare as compare
 from .studies.design.optimise import optimise as optimise
-from .physics.prediction.predict import predict as predict
 from .surfaces.characterise.summary import characterise as characterise
 from .surfaces.prepare.extent import periodised as periodised
 from .surfaces.prepare.level import filled as filled

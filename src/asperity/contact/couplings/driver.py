@@ -255,16 +255,8 @@ class _Iteration:
         tolerance, lowest, progressed = self._next_tolerance(np.inf, self.active), np.inf, 0
         status: Status | None = None
         joint = Position.name in self.active and len(self.active) > 1  # the position is one of several unknowns
-        alone = self.couplings[self.active[0]] if len(self.active) == 1 else None
-        if isinstance(alone, Foreseeing):
-            # it may find the contact by a method of its own, from which rounds then start
-            qp = self._posed()
-            found = alone.ahead(self.exchanges[alone.name], qp, self._start(qp), self._to(self.finest), self.watched)
-            self.spent = found.iterations, found.pairs
-            if found.exchange is not None:
-                self.exchanges[alone.name], tolerance = found.exchange, self.finest
-                if found.exchange.pressure is not None and found.deflection is not None:
-                    self.foreseen = Loaded(found.exchange.pressure, found.deflection)
+        if self._foreseen():
+            tolerance = self.finest
         for count in range(1, self.rounds.most + 1):
             tolerance = self.finest if count == self.rounds.most else tolerance
             contact = self._solved(self._posed(), tolerance)
@@ -314,6 +306,22 @@ class _Iteration:
             rate = min(self._rate(name), _SLOWEST) if count > 1 else 0.0
             checks.append(CouplingCheck(name, self.exchanges[name].residual, rate, self.exchanges[name].tolerance))
         return Settled(contact, self.exchanges, tuple(checks), count, self.finest, status)
+
+    def _foreseen(self) -> bool:
+        """Whether a coupling that feeds back alone finds the contact by a method of its own, from
+        which rounds then start."""
+        alone = self.couplings[self.active[0]] if len(self.active) == 1 else None
+        if not isinstance(alone, Foreseeing):
+            return False
+        qp = self._posed()
+        found = alone.ahead(self.exchanges[alone.name], qp, self._start(qp), self._to(self.finest), self.watched)
+        self.spent = found.iterations, found.pairs
+        if found.exchange is None:
+            return False
+        self.exchanges[alone.name] = found.exchange
+        if found.exchange.pressure is not None and found.deflection is not None:
+            self.foreseen = Loaded(found.exchange.pressure, found.deflection)
+        return True
 
     def _reply(self, contact: Contact) -> bool:
         """Replies of the couplings to ``contact``; whether the position moves, for which when

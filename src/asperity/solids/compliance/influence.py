@@ -69,7 +69,7 @@ def patch_displacements(grid: Grid) -> RealArray:
         half = np.zeros((nx + 1, ny + 1))
         upper = np.triu_indices(nx + 1)
         half[upper] = _corner(x[upper[0], 0], y[0, upper[1]])
-        corners = half + half.T
+        corners: RealArray = half + half.T
         np.fill_diagonal(corners, half.diagonal())
     else:
         corners = _corner(x, y)
