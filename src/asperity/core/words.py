@@ -90,6 +90,7 @@ ACTIONS = MappingProxyType(
             '--body rigid --counter "E=3MPa+10MPa@10ms,nu=0.5"',
             "Bodies: Counter body",
         ),
+        "unfed": Action("LiquidFilm(..., feedback=False)", "--no-meniscus-feedback", "Film: Feedback"),
         "hardness": Action("law=Hardness(...)", "--hardness body", "Law: hardness"),
         "effective_hardness": Action(
             "law=plasticity.LayeredHardness(body)", "--hardness effective", "Law: hardness = effective"

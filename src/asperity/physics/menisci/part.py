@@ -53,6 +53,11 @@ class FilmSettings(Settings):
     shear_strength: Pressure | None = setting(
         None, option="--shear-strength", help="Of the liquid, at which its viscous stress ends: 10MPa"
     )
+    feedback: bool = setting(
+        True,
+        option="--meniscus-feedback",
+        help="Let the menisci press the surfaces together; else their force is that in the gap of the load alone",
+    )
 
     @model_validator(mode="after")
     def _whole(self) -> FilmSettings:
@@ -133,7 +138,9 @@ class Menisci(Part):
             height = math.nan if table.meniscus_height is None else table.meniscus_height
             film = LiquidFilm.of(substance, float(table.thickness or 0.0), meniscus_height=height, contact_angles=sides)
         known = {key: value for key in ("viscosity", "shear_strength") if (value := getattr(table, key)) is not None}
-        return Wetted(replace(film, **known), friction_law(document.friction, sheared=sticks(document)))
+        return Wetted(
+            replace(film, feedback=table.feedback, **known), friction_law(document.friction, sheared=sticks(document))
+        )
 
     def coupling(self, ask: Wetted) -> Mapping[str, Any]:
         """The film joins the solve."""
