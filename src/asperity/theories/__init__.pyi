@@ -154,8 +154,10 @@ from .wear.pins import PinOnDisk, WornCap, track_section
 from .wear.running_in import WearingCoatedWave, WearingPunch, WearingWave, punch_rates
 from .wear.spheres import WearingCoatedSphere, WearingCylinder, WearingSphere
 from .wet.design import DesignedCaps, RoughnessWindow
+from .wet.exact import ExactMeniscus
+from .wet.feeds import FilmFeed, FloodedFeed, VapourFeed
 from .wet.meniscus import MeniscusGrowth
-from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
+from .wet.single import DropletMeniscus, FilmMeniscus, VapourGrowth, VapourMeniscus
 from .wet.summits import GrowingMenisci, KineticMeniscus, StatisticalMeniscus, WetSummits
 
 __all__ = [
@@ -205,9 +207,11 @@ __all__ = [
     "EllipticPunch",
     "EllipticSource",
     "Evaluation",
+    "ExactMeniscus",
     "ExpandingCavity",
     "ExponentialHeights",
     "Fastsim",
+    "FilmFeed",
     "FilmFlow",
     "FilmMeniscus",
     "FittedFactors",
@@ -215,6 +219,7 @@ __all__ = [
     "Flamant",
     "FlashAnswer",
     "FlatPunch",
+    "FloodedFeed",
     "FreeVibration",
     "FrictionalIndenter",
     "FrictionalPunch",
@@ -327,6 +332,8 @@ __all__ = [
     "TriangularHeights",
     "UniformHeights",
     "UnloadingFit",
+    "VapourFeed",
+    "VapourGrowth",
     "VapourMeniscus",
     "WaveFactors",
     "WearingCoatedSphere",
