@@ -275,9 +275,11 @@ class VapourGrowth(Theory):
         found = []
         for moment in times.ravel():
             last = first + 1.0
-            while last < _SETTLED and late(last, moment) < 0.0:
+            while last < _SETTLED and late(last, float(moment)) < 0.0:
                 last += 1.0
             high = last >= _SETTLED
-            found.append(final if high else -final * math.expm1(-brentq(late, first, last, (moment,), rtol=1e-13)))
+            found.append(
+                final if high else -final * math.expm1(-brentq(late, first, last, (float(moment),), rtol=1e-13))
+            )
         heights = np.array(found, dtype=float).reshape(times.shape)
         return GrownAnswer(heights, np.asarray(math.pi * self.radius * heights**2), heights / final)
