@@ -80,14 +80,14 @@ def test_menisci_from_vapour_of_reference(row):
     assert float(found.at_time(row["time_s"]).height) == pytest.approx(row["s_m"], rel=1e-6)
 
 
-def sphere_time(feed: asp.theories.FilmFeed | asp.theories.FloodedFeed, radius: float, s: tuple[float, float]) -> float:
+def sphere_time(feed: asp.menisci.FilmFeed | asp.menisci.FloodedFeed, radius: float, s: tuple[float, float]) -> float:
     """∫ 2 π R s ds/Q."""
     return float(quad(lambda height: 2.0 * math.pi * radius * height / feed.flow(height), *s, epsrel=1e-11)[0])
 
 
 def test_the_feed_of_a_film_is_that_of_the_growth_of_one_meniscus():
     film = MeniscusGrowth(1e-6, 0.025, 2e-9, 0.1, 1e-19, 0.3)
-    feed = asp.theories.FilmFeed(0.025, 2e-9, 0.1, film.disjoining_pressure, 1.0 + math.cos(0.3))
+    feed = asp.menisci.FilmFeed(0.025, 2e-9, 0.1, film.disjoining_pressure, 1.0 + math.cos(0.3))
     assert feed.equilibrium_height == pytest.approx(film.equilibrium_height, rel=1e-12)
     share = (0.5, 0.9)
     heights = (share[0] * film.equilibrium_height, share[1] * film.equilibrium_height)
@@ -97,7 +97,7 @@ def test_the_feed_of_a_film_is_that_of_the_growth_of_one_meniscus():
 
 def test_a_flooded_gap_feeds_by_the_resistance_of_its_wedge():
     """∫ 12 μ dr/(2 π r g³) from the meniscus outwards."""
-    feed, height = asp.theories.FloodedFeed(0.025, 0.1), 1e-8
+    feed, height = asp.menisci.FloodedFeed(0.025, 0.1), 1e-8
     outwards = quad(lambda x: 12.0 * 0.1 * x**2, 0.0, 1.0)[0]  # dr/r = dg/2g, with x = height/g
     resistance = outwards / (4.0 * math.pi * height**3)
     assert feed.flow(height) == pytest.approx(0.05 / height / resistance, rel=1e-6)

@@ -155,7 +155,6 @@ from .wear.running_in import WearingCoatedWave, WearingPunch, WearingWave, punch
 from .wear.spheres import WearingCoatedSphere, WearingCylinder, WearingSphere
 from .wet.design import DesignedCaps, RoughnessWindow
 from .wet.exact import ExactMeniscus
-from .wet.feeds import FilmFeed, FloodedFeed, VapourFeed
 from .wet.meniscus import MeniscusGrowth
 from .wet.single import DropletMeniscus, FilmMeniscus, VapourGrowth, VapourMeniscus
 from .wet.summits import GrowingMenisci, KineticMeniscus, StatisticalMeniscus, WetSummits
@@ -211,7 +210,6 @@ __all__ = [
     "ExpandingCavity",
     "ExponentialHeights",
     "Fastsim",
-    "FilmFeed",
     "FilmFlow",
     "FilmMeniscus",
     "FittedFactors",
@@ -219,7 +217,6 @@ __all__ = [
     "Flamant",
     "FlashAnswer",
     "FlatPunch",
-    "FloodedFeed",
     "FreeVibration",
     "FrictionalIndenter",
     "FrictionalPunch",
@@ -332,7 +329,6 @@ __all__ = [
     "TriangularHeights",
     "UniformHeights",
     "UnloadingFit",
-    "VapourFeed",
     "VapourGrowth",
     "VapourMeniscus",
     "WaveFactors",

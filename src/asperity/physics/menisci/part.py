@@ -20,6 +20,7 @@ from ..friction.part import friction_law, sticks
 from .quantities import WET_SCALARS
 
 if TYPE_CHECKING:
+    from ...solids.library import Liquid
     from ..friction.law import FrictionLaw
     from .film import LiquidFilm
 
@@ -93,6 +94,22 @@ class Wetted:
     friction: FrictionLaw
 
 
+def substance_of(document: Any, folder: Path) -> Liquid:
+    """The liquid of the table [film], whose liquids file starts at ``folder``.
+
+    InputError if it is unknown.
+    """
+    from ...solids.library import Liquid, liquid
+
+    table: FilmSettings = document.film
+    tension = math.nan if table.surface_tension is None else table.surface_tension
+    if table.liquid is None:
+        return Liquid(tension)
+    own = None if table.liquids_file is None else folder / table.liquids_file
+    named = liquid(table.liquid, library=own)
+    return named if math.isnan(tension) else replace(named, surface_tension=tension)
+
+
 class Menisci(Part):
     """Menisci that press the surfaces together."""
 
@@ -118,17 +135,10 @@ class Menisci(Part):
         InputError
             If the liquid is unknown, does not wet, or lacks a value that is needed.
         """
-        from ...solids.library import Liquid, liquid
         from .film import LiquidFilm
 
         table: FilmSettings = document.film
-        tension = math.nan if table.surface_tension is None else table.surface_tension
-        if table.liquid is None:
-            substance = Liquid(tension)
-        else:
-            own = None if table.liquids_file is None else folder / table.liquids_file
-            substance = liquid(table.liquid, library=own)
-            substance = substance if math.isnan(tension) else replace(substance, surface_tension=tension)
+        substance = substance_of(document, folder)
         angles = table.contact_angle
         sides = (angles[0], angles[1] if len(angles) == 2 else 0.0)
         if table.humidity is not None:
