@@ -3,6 +3,7 @@ from ..parts.advice import advise, review
 from .boundary import Boundary, Free, FreeLine, Periodic
 from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .history import EnergyBalance, History, HistoryResult, ramps
+from .interference import Interference, complementary_energy, interference
 from .line_contact import line_problem
 from .problem import ContactProblem, Flat
 from .result import ContactResult
@@ -24,6 +25,7 @@ __all__ = [
     "FreeLine",
     "History",
     "HistoryResult",
+    "Interference",
     "Keep",
     "MeanGap",
     "MeanPressure",
@@ -33,6 +35,8 @@ __all__ = [
     "TimeSteps",
     "Unloaded",
     "advise",
+    "complementary_energy",
+    "interference",
     "line_problem",
     "ramps",
     "review",
