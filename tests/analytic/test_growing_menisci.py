@@ -42,7 +42,7 @@ def test_a_cell_of_crossed_waves(row):
     gap = 2.0 - np.cos(x)[:, None] - np.cos(x)
     grid = asp.Grid((POINTS, POINTS), (1.0 / POINTS, 1.0 / POINTS))
     feed = Plain(row["disjoining_pressure"])
-    pools = Pools.within(gap, np.zeros(gap.shape, dtype=bool), grid, (True, True), feed, 1.0, row["s_start"])
+    pools = Pools(gap, np.zeros(gap.shape, dtype=bool), grid, (True, True), feed, 1.0).begun(row["s_start"])
     time = 0.0
     while pools.height < row["s"] and math.isfinite(pools.following):
         time = pools.following
@@ -60,7 +60,7 @@ def test_the_meniscus_of_a_sphere_grows_as_in_theory():
     gap = np.add.outer(x**2, x**2) / (2.0 * 1e-6)
     theory = MeniscusGrowth(1e-6, 0.025, 2.0 * NM, 0.1, 8e-20)
     feed = asp.menisci.FilmFeed(0.025, 2.0 * NM, 0.1, theory.disjoining_pressure)
-    pools = Pools.within(gap, gap == 0.0, grid, (False, False), feed, 0.05, 2.0 * NM)
+    pools = Pools(gap, gap == 0.0, grid, (False, False), feed, 0.05).begun(2.0 * NM)
     heights, times = [], []
     while (
         math.isfinite(pools.following) and pools.height < 0.9 * theory.equilibrium_height and pools.height < 20.0 * NM
@@ -89,7 +89,7 @@ def test_islands_that_meet_hold_the_volume_of_both():
         def flow(self, height: float) -> float:
             return 1.0
 
-    pools = Pools.within(gap, np.zeros(gap.shape, dtype=bool), grid, (False, False), Steady(), 1.0, 1.7)
+    pools = Pools(gap, np.zeros(gap.shape, dtype=bool), grid, (False, False), Steady(), 1.0).begun(1.7)
     assert len(pools.pools) == 2
     begun, time, met = pools.volume, 0.0, math.nan
     while len(pools.pools) == 2:

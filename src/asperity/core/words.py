@@ -90,7 +90,6 @@ ACTIONS = MappingProxyType(
             '--body rigid --counter "E=3MPa+10MPa@10ms,nu=0.5"',
             "Bodies: Counter body",
         ),
-        "unfed": Action("LiquidFilm(..., feedback=False)", "--no-meniscus-feedback", "Film: Feedback"),
         "hardness": Action("law=Hardness(...)", "--hardness body", "Law: hardness"),
         "effective_hardness": Action(
             "law=plasticity.LayeredHardness(body)", "--hardness effective", "Law: hardness = effective"
@@ -178,6 +177,8 @@ def _said(found: re.Match[str], door: Door, here: _Speaking) -> str:
     if door == "form":
         field = field_of(name)
         return field if value is None else f"{field} = {value}"
+    if door == "command" and f"{name}={value}" in here.options:
+        return here.options[f"{name}={value}"]
     option = here.options.get(name) if door == "command" else None
     if option is not None:
         return option if value is None else f'{option} "{value}"' if " " in value else f"{option} {value}"

@@ -38,7 +38,7 @@ def findings(film: LiquidFilm, wetting: Wetting, pull: float, external: float) -
             f"The menisci pull with {show(pull, 'N')} in the gap of the load alone, {show(external, 'N')}, and are not "
             "fed back: they would press the surfaces together, make more menisci"
             + (", and may run away." if pull > external else "."),
-            "Leave out {unfed} to feed them back, or state with the force that it is not fed back.",
+            "Feed them back, {film.feedback=true}, or state with the force that it is not fed back.",
             {"pull": pull, "external": external, "share": UNFED},
             ("meniscus_force", "relative_meniscus_force", "static_friction", "friction_force"),
         )

@@ -73,7 +73,7 @@ _ACCURACY = 1e-4
 _FULL = (
     "Liquid and contact fill nearly all of the interface. Take a thinner film, a rougher surface, stiffer "
     "bodies or a liquid of less surface tension; prescribe the position, {approach} or {mean_gap}; or take the "
-    "force in the gap of the load alone, {unfed}."
+    "force in the gap of the load alone, {film.feedback=false}."
 )
 
 

@@ -126,7 +126,7 @@ class _March:
         film, wraps = found.film, self.problem.boundary.wraps
         pull = film.surface_tension * wetting_factor(*film.contact_angles)
         gap, touching = np.asarray(self.result.gap), np.asarray(self.result.contact)
-        self.pools = Pools.within(gap, touching, self.problem.grid, wraps, self.feed, pull, film.thickness)
+        self.pools = Pools(gap, touching, self.problem.grid, wraps, self.feed, pull).begun(film.thickness)
 
     def settle(self, time: float) -> None:
         """Solve the contact again until its load has the force of the menisci in it.
@@ -145,7 +145,7 @@ class _March:
                 raise NoSolutionError(
                     f"growing meniscus force does not come to rest: under {self.external:.4g} N menisci pull with "
                     f"{self.pools.force:.4g} N at {time:.3g} s, after {self.solves} solves. Take a shorter time, or "
-                    "the force in the gap of the load alone, {unfed}."
+                    "the force in the gap of the load alone, {film.feedback=false}."
                 )
             self.posed += step * (self.pools.force - self.posed)
             dry = self.problem.with_physics(film=None, friction=None)
@@ -285,10 +285,9 @@ def _default_times(march: _March) -> RealArray:
     assert march.result is not None
     gap, touching, film = np.asarray(march.result.gap), np.asarray(march.result.contact), march.problem.film
     assert film is not None
-    ahead = Pools.within(
-        gap, touching, march.problem.grid, march.problem.boundary.wraps, march.feed, march.pools.pull, film.thickness
-    )
-    while math.isfinite(ahead.following) and ahead.area < FLOODED * march.problem.grid.area:
+    grid, wraps = march.problem.grid, march.problem.boundary.wraps
+    ahead = Pools(gap, touching, grid, wraps, march.feed, march.pools.pull).begun(film.thickness)
+    while math.isfinite(ahead.following) and ahead.area < FLOODED * grid.area:
         end = ahead.following
         ahead.advance()
     return np.concatenate([[0.0], np.geomspace(max(begin, 1e-6 * end), 2.0 * end, MOMENTS - 1)])

@@ -54,22 +54,6 @@ class Pools:
         self.force = self.area = 0.0
         self._next = 1
 
-    @classmethod
-    def within(
-        cls,
-        gap: RealArray,
-        touching: BoolArray,
-        grid: Grid,
-        wraps: tuple[bool, bool],
-        feed: Feed,
-        pull: float,
-        film: float,
-    ) -> Pools:
-        """Islands where the gap is not larger than that of the ``film`` (m), at its height."""
-        made = cls(gap, touching, grid, wraps, feed, pull)
-        made.wet((gap <= film) | touching, film, 0.0)
-        return made
-
     def wet(self, mask: BoolArray, height: float, time: float) -> None:
         """New islands on the points of ``mask`` (nx, ny) that nobody holds, at this ``height`` (m)
         from ``time`` (s) on."""
@@ -195,6 +179,12 @@ class Pools:
                 pool.spare -= gap * pixel
                 pool.height = max(pool.height, gap)
                 self._take(number, pool, point)
+
+    def begun(self, film: float) -> Pools:
+        """With islands where the gap is not larger than that of the ``film`` (m), at its height."""
+        gap, touching = (np.reshape(values, self.shape) for values in (self.gap, self.touching))
+        self.wet((gap <= film) | touching, film, 0.0)
+        return self
 
     def moved(self, gap: RealArray, touching: BoolArray, time: float, film: float) -> Pools:
         """The same volumes in another ``gap`` of the surfaces; points that come into the ``film``
