@@ -153,6 +153,14 @@ EXAMPLES = {
     "droplet-meniscus": {"radius": 1e-6, "surface_tension": 0.072, "contact_angle": 0.5, "immersion": 5e-9},
     "film-meniscus": {"radius": 1e-6, "surface_tension": 0.072, "contact_angle": 0.5, "height": 5e-9},
     "vapour-meniscus": {"surface_tension": 0.072, "molar_volume": 1.8e-5},
+    "exact-meniscus": {"radius": 1e-6, "surface_tension": 0.072, "contact_angle": 0.5},
+    "vapour-growth": {
+        "radius": 1e-6,
+        "surface_tension": 0.072,
+        "molar_volume": 1.8e-5,
+        "humidity": 0.9,
+        "start": 1e-9,
+    },
     "roughness-window": {"E_star": 1.1e11, "hardness": 1e10, **FILM, "load": 0.1, "area": 1e-6},
     "designed-caps": {"E_star": 1.1e11, "hardness": 1e10, **FILM, "load": 0.05},
     "plastic-joint": {"conductivity": 50.0, "rms_height": 1e-6, "slope": 0.1, "hardness": 8e9},
@@ -258,6 +266,7 @@ RANGES = {
     "spot": (1e-18, 1e-12),
     "wavenumber": (2e6, 1e8),
     "rate": (1e-3, 1e9),
+    "filling_angle": (0.02, 0.5),
 }
 """Between what the arguments run."""
 

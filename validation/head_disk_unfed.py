@@ -27,7 +27,9 @@ DISK_HARDNESS, SLIDER_HARDNESS, HARDNESS_RATIO = 9e9, 23e9, 0.1
 
 RMS, CORRELATION_LENGTH = 1e-9, 0.5e-6
 LOAD = asp.MeanPressure(50e3)
-FILM = asp.LiquidFilm(surface_tension=25e-3, thickness=2e-9, contact_angles=(math.radians(10.0), math.radians(10.0)))
+FILM = asp.LiquidFilm(
+    surface_tension=25e-3, thickness=2e-9, contact_angles=(math.radians(10.0), math.radians(10.0)), feedback=False
+)
 KEEP = asp.Keep(stiffness=False)
 RATIOS = (0.1, 0.75, 1.75, 10.0)
 
@@ -61,38 +63,43 @@ def hardness(ratio: float, thickness: float) -> float:
     return min(surface, SLIDER_HARDNESS)
 
 
-def solved(seeds: int, points: int, count: int, ratios: Sequence[float] = RATIOS) -> xarray.Dataset:
+def solved(
+    seeds: int,
+    points: int,
+    count: int,
+    ratios: Sequence[float] = RATIOS,
+    rms: float = RMS,
+    load: asp.MeanPressure = LOAD,
+) -> xarray.Dataset:
     """Area, largest displacement and pressure under the load alone, and the force of menisci in
-    that gap over the load."""
+    that gap over the load; the film is 2σ thick."""
     import xarray
 
     names = ("area_fraction", "max_displacement", "max_pressure", "relative_meniscus_force")
-    depths, surfaces = thicknesses(count), shapes(seeds, points)
-    found = np.array([[_contacts(surfaces, ratio, float(h)) for h in depths] for ratio in ratios])
+    depths, surfaces = thicknesses(count), shapes(seeds, points, rms)
+    film = replace(FILM, thickness=2.0 * rms, meniscus_height=2.0 * rms)
+    found = np.array([[contacts(surfaces, ratio, float(h), film, load) for h in depths] for ratio in ratios])
     dims = ("modulus", "thickness", "surface")
     moduli = [ratio * DISK.youngs_modulus for ratio in ratios]
     coordinates = {"modulus": moduli, "thickness": depths, "surface": range(seeds)}
     return xarray.Dataset({name: (dims, found[..., at]) for at, name in enumerate(names)}, coordinates)
 
 
-def _contacts(surfaces: Sequence[asp.Surface], ratio: float, thickness: float) -> list[tuple[float, ...]]:
+def contacts(
+    surfaces: Sequence[asp.Surface],
+    ratio: float,
+    thickness: float,
+    film: asp.LiquidFilm = FILM,
+    load: asp.MeanPressure = LOAD,
+) -> list[tuple[float, ...]]:
     """The four quantities on every one of the ``surfaces``; one operator serves them all."""
     law, solid, operator, rows = asp.Hardness(hardness(ratio, thickness)), body(ratio, thickness), None, []
     for surface in surfaces:
-        problem = asp.ContactProblem(surface, solid, counter_body=SLIDER, law=law)
+        problem = asp.ContactProblem(surface, solid, counter_body=SLIDER, law=law, film=film)
         operator = operator or asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
-        dry = asp.solve(problem, LOAD, operator=operator, keep=KEEP)
-        wet = asp.solve(
-            replace(problem, film=FILM),
-            LOAD,
-            operator=operator,
-            keep=KEEP,
-            state=dry.state,
-            rounds=asp.solvers.Rounds(most=1),
-            on_failure="return",
-        )
-        force = wet.require_menisci().relative_meniscus_force
-        rows.append((dry.area_fraction, float(dry.displacement.max()), dry.max_pressure, force))
+        found = asp.solve(problem, load, operator=operator, keep=KEEP)
+        force = found.require_menisci().relative_meniscus_force
+        rows.append((found.area_fraction, float(found.displacement.max()), found.max_pressure, force))
     return rows
 
 

@@ -1,6 +1,7 @@
 from .physics.stress.compute import stress, stress_planes
 from .physics.stress.criteria import MaxPrincipal, Tresca, VonMises
 from .physics.stress.field import StressField
+from .physics.stress.influence import influence_coefficients
 from .physics.stress.loads import LineLoad, PatchLoad, PointLoad
 from .physics.stress.regions import DepthProfile, Everywhere, Section, depths_through
 from .physics.stress.shakedown import ShakedownCurve, ShakedownMap, shakedown, shakedown_map
@@ -29,6 +30,7 @@ __all__ = [
     "depths_through",
     "first_yield",
     "fracture_indicators",
+    "influence_coefficients",
     "load_at_yield",
     "shakedown",
     "shakedown_map",

@@ -126,6 +126,19 @@ def grown_menisci(hamaker: float) -> float:
     return apart(grown.at_time([late], 1e6).meniscus_pressure, rest)
 
 
+def low_meniscus(angle: float) -> float:
+    """Force of ever lower exact menisci over that of a sphere that touches the film."""
+    exact = make("exact-meniscus", R, 0.025, 0.3).at_filling_angle([angle]).force
+    return apart(exact, make("film-meniscus", R, 0.025, 0.3, 1.0).at_gap([0.0]).force)
+
+
+def condensed(_: float) -> float:
+    """Height long after contact, times the curvature that is in equilibrium with the vapour."""
+    grown = make("vapour-growth", R, 0.072, 1.8e-5, 0.9, 1e-9)
+    kelvin = make("vapour-meniscus", 0.072, 1.8e-5).at_humidity([0.9]).kelvin_radius
+    return apart(grown.at_time([1e4 * grown.settling]).height, 2.0 * kelvin)
+
+
 def designed_area(_: float) -> float:
     """Area of the designed surface against Greenwood and Williamson's on that surface, for 1e-4 <=
     P_a <= 1e-2."""
@@ -282,6 +295,25 @@ FIELDS_AND_FILMS: tuple[Agreement, ...] = (
         (1e-20, 1e-22, 1e-24),
         1e-6,
         "film thickness over meniscus height, which goes as the reciprocal of the Hamaker constant",
+    ),
+    Agreement(
+        "exact-meniscus",
+        "film-meniscus",
+        "filling angle to zero",
+        low_meniscus,
+        (1e-2, 1e-3, 1e-4),
+        1e-4,
+        "the error of circular arcs goes as the root of height over radius, 0.3 to 0.4 times it: half of the filling "
+        "angle",
+    ),
+    Agreement(
+        "vapour-growth",
+        "vapour-meniscus",
+        "long after contact",
+        condensed,
+        (),
+        ROUNDING,
+        "the height in equilibrium is two Kelvin radii where both surfaces are wetted",
     ),
     Agreement(
         "least-area",

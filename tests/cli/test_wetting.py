@@ -145,6 +145,24 @@ def test_a_force_that_runs_away_is_told(run: Runner, scan: Path) -> None:
     assert "meniscus" in found.stderr
 
 
+def test_a_force_that_is_not_fed_back(run: Runner, scan: Path, tmp_path: Path) -> None:
+    """It is there where feedback runs away, and verdict, document and files say which it is; with
+    adhesional friction beside it."""
+    soft = ("--body", "E=1GPa,nu=0.3", "--pressure", "10kPa", "--liquid", "PFPE", "--film", "2nm")
+    adhesional = ("--friction-law", "tresca", "--friction-strength", "20MPa")
+    found = run("contact", scan, *soft, *adhesional, "--no-meniscus-feedback", "--out", tmp_path / "unfed")
+    assert found.exit_code == 0, found.stderr
+    assert load_document(tmp_path / "unfed" / "problem.toml").film.feedback is False
+    wet = asp.load(tmp_path / "unfed" / "result.nc")
+    assert wet.force == pytest.approx(10e3 * wet.problem.grid.area, rel=1e-9)
+    assert wet.menisci.relative_meniscus_force > 1.0
+    assert wet.menisci.friction_force == pytest.approx(
+        20e6 * np.count_nonzero(wet.contact) * wet.problem.grid.pixel_area, rel=1e-12
+    )
+    fed = run("contact", "--from", tmp_path / "unfed" / "problem.toml", "--meniscus-feedback")
+    assert fed.exit_code == 2
+
+
 def test_the_shear_strength_limits_the_viscous_force(run: Runner, scan: Path, tmp_path: Path) -> None:
     moving = (*DLC, *WATER, "--friction", 0.3, "--speed", "1m/s")
     strength, force, area = 3e3, {}, {}

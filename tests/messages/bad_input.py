@@ -211,6 +211,9 @@ FILM: tuple[tuple[str, ...], ...] = (
     ("--liquid", "water", "--film", "1nm", "--contact-angle", "1deg,2deg,3deg"),
     ("--liquid", "water", "--film", "1nm", "--contact-angle", "120deg,80deg"),
     ("--liquid", "PFPE", "--film", "1nm", "--speed", "1mm/s"),
+    ("--growth-feed", "vapour"),
+    ("--liquid", "water", "--film", "1nm", "--growth-feed", "vapour"),
+    ("--surface-tension", "30mN/m", "--film", "1nm", "--growth-feed", "flooded"),
 )
 """Options of a liquid film."""
 
@@ -446,6 +449,8 @@ CALLS: Mapping[str, Callable[[], object]] = {
         _problem(surface=asp.Surface(np.zeros((8, 8)), 1.0, periodic=True), law=asp.Hardness(0.4))
     ),
     "a film of no thickness": lambda: asp.LiquidFilm(thickness=0.0, surface_tension=0.03),
+    "an exact meniscus that is not concave": lambda: asp.theories.ExactMeniscus(1e-6, 0.07, 1.5).at_filling_angle(1.7),
+    "vapour in which no meniscus grows": lambda: asp.theories.VapourGrowth(1e-6, 0.07, 1.8e-5, 0.5, start=1e-7),
     "a meniscus below the film": lambda: asp.LiquidFilm(thickness=2e-9, surface_tension=0.03, meniscus_height=1e-9),
     "a liquid that does not wet": lambda: asp.LiquidFilm(
         thickness=1e-9, surface_tension=0.03, contact_angles=(2.0, 2.0)

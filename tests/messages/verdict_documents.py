@@ -21,6 +21,7 @@ COATED = PLAIN | {"body": "E=400GPa,nu=0.2,H=20GPa,name=carbide:1um/E=200GPa,nu=
 STICKY = SOFT | {"adhesion": {"work": "50 mJ/m**2", "range": "100 nm"}, "control": {"approach": "20 nm"}}
 RUBBER = BALL | {"body": "E=3MPa+297MPa@1ms,nu=0.5", "control": {"force": "20 uN"}}
 WET = PLAIN | {"film": {"liquid": "water", "humidity": "60 %"}}
+UNFED = PLAIN | {"film": {"liquid": "water", "thickness": "2 nm", "feedback": False}}
 SLIDE = PLAIN | {"friction": {"coefficient": 0.3}, "shear": {"shift": "0.4 nm"}}
 LEAKING = PLAIN | {"body": "E=100GPa,nu=0.3", "control": {"mean_pressure": "20 MPa"}, "sealing": {}}
 WEARS = PLAIN | {
@@ -74,6 +75,8 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
     "adhesion": STICKY,
     "adhesion, separation": STICKY | {"adhesion": STICKY["adhesion"] | {"retract": "60 nm", "steps": 12}},
     "menisci": WET,
+    "menisci without feedback": UNFED,
+    "menisci that grow": WET | {"meniscus_growth": {"feed": "vapour"}},
     "menisci under friction": WET | {"friction": {"coefficient": 0.3}},
     "stick and slip": SLIDE,
     "gross sliding": SLIDE | {"shear": {"shift": "4 nm"}},

@@ -72,7 +72,8 @@ def test_each_stress_is_drawn_once(report: Any, open_page: Open) -> None:  # noq
     page = opened(report, open_page)
     heads = page.locator(".av-below:visible h4").all_inner_texts()
     pictures = page.locator("figure:visible h3").all_inner_texts()
-    stresses = [title for title in (*heads, *pictures) if "tress" in title or title.startswith("σ")]
+    flat = [title for title in (*heads, *pictures) if "in space" not in title]  # a view is no second map
+    stresses = [title for title in flat if "tress" in title or title.startswith("σ")]
     assert len(stresses) == len(report.scene["sections"])
     assert len(set(stresses)) == len(stresses)
     page.emulate_media(media="print")

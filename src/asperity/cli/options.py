@@ -206,9 +206,16 @@ def levelled_as(surface: Heights, level: str) -> tuple[Heights, str]:
 
 
 def option_words() -> dict[str, str]:
-    """Option of every key of documents that has one, by the dotted key."""
-    named = {".".join(option.path): option.name for option in (*document_options(), *part_options())}
-    return {**named, "control.path.steps": "--path-steps"}
+    """Option of every key of documents that has one, by the dotted key; of flags also what stands
+    for ``key=true`` and ``key=false``."""
+    named, flags = {"control.path.steps": "--path-steps"}, dict[str, str]()
+    for option in (*document_options(), *part_options()):
+        key = ".".join(option.path)
+        named.setdefault(key, option.name)
+        if isinstance(option.parameter.values, Flag):
+            off = f"--no-{option.name[2:]}" if option.parameter.default is True else f"no {option.name}"
+            flags |= {f"{key}=true": option.name, f"{key}=false": off}
+    return named | flags
 
 
 CORE = ("surface", "counter_surface", "prepare")

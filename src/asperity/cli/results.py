@@ -55,7 +55,8 @@ def plot(
         str,
         typer.Option(
             "--kind",
-            help="all, heights, pressure, pressure_log, contact, gap, section, histogram or gap_histogram; "
+            help="all, heights, pressure, pressure_log, pressure_view, contact, gap, section, histogram or "
+            "gap_histogram; "
             "of an indented surface also indentation and residual, of a wet contact menisci.",
         ),
     ] = "all",

@@ -4,6 +4,7 @@ from .boundary import Boundary, Free, FreeLine, Periodic
 from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .full import FullContactField, full_contact
 from .history import EnergyBalance, History, HistoryResult, ramps
+from .interference import Interference, complementary_energy, interference
 from .line_contact import line_problem
 from .problem import ContactProblem, Flat
 from .result import ContactResult
@@ -26,6 +27,7 @@ __all__ = [
     "FullContactField",
     "History",
     "HistoryResult",
+    "Interference",
     "Keep",
     "MeanGap",
     "MeanPressure",
@@ -35,7 +37,9 @@ __all__ = [
     "TimeSteps",
     "Unloaded",
     "advise",
+    "complementary_energy",
     "full_contact",
+    "interference",
     "line_problem",
     "ramps",
     "review",

@@ -177,6 +177,8 @@ def _said(found: re.Match[str], door: Door, here: _Speaking) -> str:
     if door == "form":
         field = field_of(name)
         return field if value is None else f"{field} = {value}"
+    if door == "command" and f"{name}={value}" in here.options:
+        return here.options[f"{name}={value}"]
     option = here.options.get(name) if door == "command" else None
     if option is not None:
         return option if value is None else f'{option} "{value}"' if " " in value else f"{option} {value}"

@@ -30,6 +30,11 @@ class Contact(Part):
             Quantity("peak_pressure_x", "m", "x of the largest pressure"),
             Quantity("peak_pressure_y", "m", "y of the largest pressure"),
             Quantity("max_displacement", "m", "largest displacement"),
+            Quantity(
+                "interference_area", "m**2", "area in which the undeformed bodies overlap at the approach (pixels)"
+            ),
+            Quantity("interference_volume", "m**3", "volume in which the undeformed bodies overlap at the approach"),
+            Quantity("complementary_energy", "J", "complementary energy"),
             Quantity("rms_height", "m", "rms height of the profile"),
             Quantity("contact_modulus", "Pa", "contact modulus E*"),
         )

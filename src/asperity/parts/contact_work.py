@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..contact.history import HistoryResult
+from ..contact.interference import complementary_energy, interference
 from ..contact.problem import ContactProblem
 from ..contact.result import PLASTIC_FRACTION, SCALARS, ContactResult
 from ..core.units import percent, show
@@ -41,6 +42,7 @@ class ContactWork(Work):
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Scalars of the result."""
         result, problem = solved.result, solved.problem
+        overlap = interference(result)
         peak, (dx, dy) = result.peak_pressure, problem.grid.spacing
         values = {
             **{q.name: getattr(result, q.name) for q in SCALARS},
@@ -49,6 +51,9 @@ class ContactWork(Work):
             "peak_pressure_x": peak.x + 0.5 * dx,  # in the middle of a pixel, as in figures
             "peak_pressure_y": peak.y + 0.5 * dy,
             "max_displacement": float(result.displacement.max()),
+            "interference_area": overlap.area,
+            "interference_volume": overlap.volume,
+            "complementary_energy": complementary_energy(result),
             "rms_height": float(problem.profile().std()),
             "contact_modulus": problem.contact_modulus,
         }

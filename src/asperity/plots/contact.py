@@ -21,6 +21,7 @@ from ..core.units import show
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface
 from .maps import (
+    Look,
     contact_kinds,
     enlarge_contact,
     enlarge_island,
@@ -37,6 +38,7 @@ from .picture import (
     BLUE,
     GREEN,
     ORANGE,
+    PRESSURE_MAP,
     PURPLE,
     SKY,
     VERMILLION,
@@ -51,6 +53,7 @@ from .picture import (
     scale,
 )
 from .together import save_pictures
+from .view import draw_view, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -173,6 +176,20 @@ def _histogram(values: RealArray, in_unit: Scale, ax: Axes, name: str, if_none: 
 # Whole figures as PNG: the standard set of a result, and the picture of one surface.
 
 
+PEAKS = 120
+"""Points along the longer side of a view of pressures."""
+
+
+def plot_pressure_view(result: ContactResult, ax: Axes) -> Axes:
+    """Draw the pressure of ``result`` in space on the three-dimensional axes ``ax``, as in the
+    figures of Bhushan (1998, fig. 26).
+
+    Large maps show the largest pressure of each block.
+    """
+    pressure, grid = thinned(np.asarray(result.pressure), result.problem.grid, np.max, PEAKS)
+    return draw_view(pressure, grid, ax, Look("Pa", "pressure", PRESSURE_MAP), 2.0)
+
+
 PLOTS = (
     map_of(
         "heights",
@@ -212,6 +229,14 @@ PLOTS = (
         "Gap between the deformed surfaces; grey in contact.",
         gap_field,
         enlarge_contact,
+    ),
+    Plot(
+        "pressure_view",
+        "Pressure in space",
+        "Contact pressure as hills over the surface, the highest of each block where a map has many points; flat where "
+        "the bodies do not touch.",
+        plot_pressure_view,
+        "view",
     ),
     Plot(
         "section",
@@ -259,12 +284,14 @@ PLASTIC_PLOTS = (
 def plots_of(result: ContactResult) -> tuple[Plot, ...]:
     """Figures that say something of ``result``: the standard ones, and those of its plastic zone if
     it has any."""
-    return (*PLOTS, *PLASTIC_PLOTS) if result.indented.any() else PLOTS
+    flat = 1 in result.problem.grid.shape  # a line has no view
+    chosen = tuple(plot for plot in PLOTS if not (flat and plot.kind == "view"))
+    return (*chosen, *PLASTIC_PLOTS) if result.indented.any() else chosen
 
 
 def contact_figures(result: ContactResult) -> tuple[Figure, ...]:
     """Figures of any ``result``."""
-    return figures_by(PLOTS, result)
+    return figures_by(tuple(plot for plot in plots_of(result) if plot in PLOTS), result)
 
 
 def physics_plots(result: ContactResult | None = None) -> Iterator[tuple[Plot, ...]]:

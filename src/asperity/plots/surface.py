@@ -17,7 +17,7 @@ from ..surfaces.characterise.correlation import DROP_1E, DROP_TENTH
 from ..surfaces.characterise.heights import MaterialRatioCurve, core
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
-from .maps import heights_field, map_of, plot_heights
+from .maps import Look, heights_field, map_of, plot_heights
 from .picture import (
     BLACK,
     BLUE,
@@ -31,9 +31,9 @@ from .picture import (
     figures_by,
     legend_above,
     scale,
-    times_text,
 )
 from .together import save_pictures
+from .view import draw_view, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -134,58 +134,14 @@ def plot_autocorrelation(found: Characterisation, ax: Axes) -> Axes:
 # A surface seen from the side in space, and its summits seen from above.
 
 
-_FACES = 180  # along the longer side of a view; more do not show at its size
-_TALLEST = 0.18  # height of the box over its longer side
-_LIGHT = {"azdeg": 315.0, "altdeg": 35.0}
-
-
 def plot_surface_view(surface: Surface, ax: Axes) -> Axes:
     """Draw ``surface`` in space, lit from the upper left, on the three-dimensional axes ``ax``.
 
     Heights are exaggerated to a fifth of the longer side; large maps are thinned to 180 points
     along it by block averages. Missing points are gaps. A profile has no view.
     """
-    from matplotlib import colormaps
-    from matplotlib.colors import LightSource, Normalize
-
-    view: Any = ax  # of the class Axes3D
     heights, grid = _thinned(surface)
-    if 1 in grid.shape:
-        view.text2D(0.5, 0.5, "a profile has no view", transform=view.transAxes, ha="center", va="center")
-        return ax
-    length, height = scale(max(grid.size), "m"), scale(heights, "m")
-    z = np.asarray(height(heights))
-    x, y = np.broadcast_arrays(*(length(c) for c in grid.coordinates()))
-    low, spread = float(np.nanmin(z)), float(np.nanmax(z) - np.nanmin(z)) or 1.0
-    # the slopes of the picture, not those of the surface, make the shading
-    dx, dy = (float(length(d)) / float(length(max(grid.size))) * spread / _TALLEST for d in grid.spacing)
-    light, norm, solid = LightSource(**_LIGHT), Normalize(low, low + spread), np.nan_to_num(z, nan=low)
-    colours = light.shade(solid, colormaps[HEIGHT_MAP], norm=norm, blend_mode="soft", dx=dy, dy=dx)
-    colours[np.isnan(z), 3] = 0.0
-    view.plot_surface(
-        x,
-        y,
-        solid,
-        facecolors=colours,
-        rstride=1,
-        cstride=1,
-        linewidth=0.0,
-        antialiased=False,
-        shade=False,
-    )
-    view.set(xlabel=f"x ({length.symbol})", ylabel=f"y ({length.symbol})", zlabel=f"height ({height.symbol})")
-    width, depth = (max(side / max(grid.size), 0.15) for side in grid.size)
-    view.set_box_aspect((width, depth, _TALLEST), zoom=1.1)
-    view.view_init(elev=40.0, azim=-55.0)
-    for axis in (view.xaxis, view.yaxis, view.zaxis):
-        axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
-        axis._axinfo["grid"].update(color="0.88", linewidth=0.5)
-    view.locator_params(nbins=5)
-    view.locator_params(axis="z", nbins=3)
-    along = float(np.ptp((view.get_xlim, view.get_ylim)[int(grid.size[1] > grid.size[0])]())) * length.factor
-    times = _TALLEST * along / (float(np.ptp(view.get_zlim())) * height.factor)
-    view.text2D(1.0, 0.9, times_text("heights", times), transform=view.transAxes, ha="right", fontsize=7.5)
-    return ax
+    return draw_view(heights, grid, ax, Look("m", "height", HEIGHT_MAP))
 
 
 def plot_summits(found: Characterisation, ax: Axes) -> Axes:
@@ -208,13 +164,8 @@ def plot_summits(found: Characterisation, ax: Axes) -> Axes:
 
 
 def _thinned(surface: Surface) -> tuple[RealArray, Grid]:
-    """Heights about their mean, averaged over blocks so that the longer side has at most ``_FACES``
-    points."""
-    step = max(1, min(int(np.ceil(max(surface.shape) / _FACES)), min(surface.shape) // 2))
-    count = tuple(n // step for n in surface.shape)
-    part = surface.heights[: count[0] * step, : count[1] * step] - np.nanmean(surface.heights, dtype=np.float64)
-    blocks = part.reshape(count[0], step, count[1], step).mean(axis=(1, 3))
-    return blocks, Grid((count[0], count[1]), (step * surface.dx, step * surface.dy))
+    """Heights about their mean, averaged over blocks."""
+    return thinned(surface.heights - np.nanmean(surface.heights, dtype=np.float64), surface.grid)
 
 
 # The power spectrum of a surface with its fitted model, and slopes and curvatures against the

@@ -160,8 +160,9 @@ from .wear.pins import PinOnDisk, WornCap, track_section
 from .wear.running_in import WearingCoatedWave, WearingPunch, WearingWave, punch_rates
 from .wear.spheres import WearingCoatedSphere, WearingCylinder, WearingSphere
 from .wet.design import DesignedCaps, RoughnessWindow
+from .wet.exact import ExactMeniscus
 from .wet.meniscus import MeniscusGrowth
-from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
+from .wet.single import DropletMeniscus, FilmMeniscus, VapourGrowth, VapourMeniscus
 from .wet.summits import GrowingMenisci, KineticMeniscus, StatisticalMeniscus, WetSummits
 
 __all__ = [
@@ -213,6 +214,7 @@ __all__ = [
     "EllipticPunch",
     "EllipticSource",
     "Evaluation",
+    "ExactMeniscus",
     "ExpandingCavity",
     "ExponentialHeights",
     "Fastsim",
@@ -340,6 +342,7 @@ __all__ = [
     "TriangularHeights",
     "UniformHeights",
     "UnloadingFit",
+    "VapourGrowth",
     "VapourMeniscus",
     "WaveFactors",
     "WearingCoatedSphere",

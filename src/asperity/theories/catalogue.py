@@ -76,7 +76,8 @@ from .wear.pins import PinOnDisk, WornCap
 from .wear.running_in import WearingCoatedWave, WearingPunch, WearingWave
 from .wear.spheres import WearingCoatedSphere, WearingCylinder, WearingSphere
 from .wet.design import DesignedCaps, RoughnessWindow
-from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
+from .wet.exact import ExactMeniscus
+from .wet.single import DropletMeniscus, FilmMeniscus, VapourGrowth, VapourMeniscus
 from .wet.summits import GrowingMenisci, WetSummits
 
 FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
@@ -186,6 +187,8 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             DropletMeniscus,
             FilmMeniscus,
             VapourMeniscus,
+            ExactMeniscus,
+            VapourGrowth,
             RoughnessWindow,
             DesignedCaps,
         ),

@@ -477,6 +477,7 @@ def test_schema_is_json_and_names_every_table() -> None:
         "viscoelastic",
         "hysteresis",
         "film",
+        "meniscus_growth",
         "stress",
         "plastic_load",
         "deciding_waves",

@@ -22,7 +22,10 @@ from asperity.core.errors import OutputError
 from asperity.plots.maps import Look, Window, enlarge, island, plot_field
 from asperity.plots.picture import literal, scale
 
-NAMES = ("heights", "pressure", "pressure_log", "contact", "gap", "section", "histogram", "gap_histogram")
+NAMES = (
+    *("heights", "pressure", "pressure_log", "contact", "gap", "pressure_view", "section", "histogram"),
+    "gap_histogram",
+)
 
 
 @pytest.fixture
@@ -172,7 +175,7 @@ def test_every_figure_of_every_contact_is_drawn(result: asp.ContactResult) -> No
         else:
             figure = Figure()
             FigureCanvasAgg(figure)
-            plot.draw(result, figure.add_subplot())
+            plot.draw(result, figure.add_subplot(projection="3d" if plot.kind == "view" else None))
             figure.draw_without_rendering()
 
 

@@ -46,7 +46,7 @@ def test_a_path_is_reported(path: asp.HistoryResult, tmp_path: Path) -> None:
         "Residual surface",
     ):
         assert words in text
-    assert text.count("data:image/png") == 8 + 2 + 3
+    assert text.count("data:image/png") == 9 + 2 + 3
 
 
 def test_an_elastic_contact_has_no_such_part(tmp_path: Path) -> None:

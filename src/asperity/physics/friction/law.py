@@ -113,19 +113,23 @@ class TrescaFriction:
     ----------
     strength
         τ in Pa, >= 0: a number, or an (nx, ny) array.
+    speed
+        Sliding speed in m/s, >= 0, for the viscous force of a film of liquid.
 
     Raises
     ------
     InputError
-        If a strength is negative or not finite.
+        If a strength or the speed is negative or not finite.
     """
 
     strength: float | RealArray
+    speed: float = 0.0
     name: ClassVar[str] = "Tresca friction"
     citation_keys: ClassVar[tuple[str, ...]] = ("Dundurs1969", "Johnson1985")
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "strength", _number_or_map(self.strength, "shear strength of the interface (Pa)"))
+        require.not_negative(self.speed, "sliding speed (m/s)")
 
     def bound(self, pressure: RealArray) -> RealArray:
         """The strength in Pa where there is pressure."""

@@ -76,7 +76,7 @@ def friction_law(settings: FrictionSettings, *, sheared: bool = False) -> Coulom
     from .law import Coulomb, FullStick, TrescaFriction
 
     if settings.law == "tresca":
-        return TrescaFriction(settings.strength or 0.0)
+        return TrescaFriction(settings.strength or 0.0, settings.speed or 0.0)
     if settings.law == "full stick":
         return FullStick()
     coupled = sheared if settings.coupled is None else settings.coupled

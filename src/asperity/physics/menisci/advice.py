@@ -20,13 +20,28 @@ FEWEST_MENISCUS_PIXELS = 5.0
 CONTINUUM = 1e-9
 """Radius in m below which a meniscus of water is a few molecules across: 50 % relative humidity."""
 
+UNFED = 0.02
+"""Meniscus force over the external force from which it matters that it is not fed back."""
+
 MOLECULE = 0.28e-9
 """Diameter of a molecule of water in m; other liquids have larger ones."""
 
 
-def findings(film: LiquidFilm, wetting: Wetting, pull: float, force: float) -> Iterator[Advice]:
+def findings(film: LiquidFilm, wetting: Wetting, pull: float, external: float) -> Iterator[Advice]:
     """What should be known of menisci of ``film`` that stand as ``wetting`` says and ``pull`` (N),
-    where a ``force`` (N) presses the bodies together."""
+    beside an ``external`` force (N)."""
+    force = external + pull if film.feedback else external
+    if not film.feedback and pull > UNFED * external:
+        yield Advice(
+            "warning" if pull > external else "note",
+            "menisci without feedback",
+            f"The menisci pull with {show(pull, 'N')} in the gap of the load alone, {show(external, 'N')}, and are not "
+            "fed back: they would press the surfaces together, make more menisci"
+            + (", and may run away." if pull > external else "."),
+            "Feed them back, {film.feedback=true}, or state with the force that it is not fed back.",
+            {"pull": pull, "external": external, "share": UNFED},
+            ("meniscus_force", "relative_meniscus_force", "static_friction", "friction_force"),
+        )
     if wetting.regime != "dry":
         # the mean over the area: many islands of a pixel or two hardly pull
         pixels = np.bincount(wetting.labels.ravel())[1:].astype(float)

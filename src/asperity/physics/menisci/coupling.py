@@ -8,7 +8,8 @@ pixels are under liquid in part (``bracket``). The force is remembered from one 
 menisci that have formed hold the bodies until they find no balance any more, so that on unloading
 the force falls from above to the largest balance instead. Both ends do not depend on the number of
 steps. Without external load (``Unloaded``) the menisci alone hold the bodies; at a prescribed
-position the force is passive.
+position the force is passive. So it is of a film without ``feedback``, whose force is that in the
+gap of the external load.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from ...core.late import Shown
 from ...core.quantity import Quantity, given, measured, measured_as
 from ...core.status import Advice
 from ...core.units import show, times
-from ..friction.law import Coulomb
+from ..friction.law import Coulomb, TrescaFriction
 from .advice import findings
 from .bracket import SMALL, Bracket, End, astray
 from .film import LiquidFilm, Wetting, wetting
@@ -71,7 +72,8 @@ one that it does not, at which no balance is expected between them."""
 _ACCURACY = 1e-4
 _FULL = (
     "Liquid and contact fill nearly all of the interface. Take a thinner film, a rougher surface, stiffer "
-    "bodies or a liquid of less surface tension; or prescribe the position, {approach} or {mean_gap}."
+    "bodies or a liquid of less surface tension; prescribe the position, {approach} or {mean_gap}; or take the "
+    "force in the gap of the load alone, {film.feedback=false}."
 )
 
 
@@ -87,13 +89,15 @@ class Menisci(Answer, Shown):
         W and F_m in N; W is negative where the menisci hold the bodies against a tension (position
         prescribed).
     dry_friction
-        True coefficient of friction μ_r, shear over normal force of the solid contact.
+        True coefficient of friction μ_r, shear over normal force of the solid contact; with a shear
+        strength τ of the interface τ A_r/(W + F_m).
     viscous_force
         Shear of the liquid at the sliding speed, N.
     feedback
         1 - F_m(W)/F_m(W + F_m): share of the meniscus force that is there because menisci press the
         surfaces together; the mean growth dF_m/dL on the way. Zero where the position is
-        prescribed, NaN where menisci of an earlier step were there from the start.
+        prescribed or the film has no feedback, NaN where menisci of an earlier step were there from
+        the start.
     """
 
     film: LiquidFilm = given("film")
@@ -117,16 +121,16 @@ class Menisci(Answer, Shown):
             raise ValueError("wetting_filled: it is not between 0 and 1 everywhere")
 
     def findings(self, certificate: Certificate) -> Iterator[Advice]:
-        """Menisci of few pixels or molecules."""
-        return findings(self.film, self.wetting, self.meniscus_force, self.external_force + self.meniscus_force)
+        """Menisci of few pixels or molecules, and a force that is not fed back."""
+        return findings(self.film, self.wetting, self.meniscus_force, self.external_force)
 
     def friction_under_load(self) -> float | None:
         """That of solids and liquid, where there is friction."""
         return self.static_friction if self.friction_force > 0.0 else None
 
     def pulls(self) -> float:
-        """Force of the menisci."""
-        return self.meniscus_force
+        """Force of the menisci, where it presses the bodies together."""
+        return self.meniscus_force if self.film.feedback else 0.0
 
     def outside(self, force: float, *, alone: bool) -> float:
         """The external force, which menisci that pull alone know to the last digit."""
@@ -136,6 +140,11 @@ class Menisci(Answer, Shown):
     def relative_meniscus_force(self) -> float:
         """F_m/W; NaN without external force."""
         return self.meniscus_force / self.external_force if self.external_force > 0.0 else math.nan
+
+    @property
+    def unfed_meniscus_force(self) -> float:
+        """F_m(W) in N: that in the gap of the external force alone; NaN where ``feedback`` is."""
+        return self.meniscus_force * (1.0 - self.feedback)
 
     @property
     def suction(self) -> float:
@@ -174,7 +183,8 @@ class Menisci(Answer, Shown):
 
     @property
     def friction_force(self) -> float:
-        """μ_r (W + F_m) + viscous force in N."""
+        """μ_r (W + F_m) + viscous force in N; τ A_r + viscous force with the shear strength τ of
+        ``TrescaFriction`` on the area A_r in contact, counted in pixels."""
         return self.dry_friction * (self.external_force + self.meniscus_force) + self.viscous_force
 
     @property
@@ -228,7 +238,7 @@ class MeniscusCoupling(Coupling):
 
     film: LiquidFilm
     wraps: tuple[bool, bool]
-    friction: Coulomb
+    friction: Coulomb | TrescaFriction
     tolerance: float = TOLERANCE
     name: ClassVar[str] = "menisci"
     feedback: ClassVar[bool] = True
@@ -237,8 +247,8 @@ class MeniscusCoupling(Coupling):
     )
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
-        """The force remembered; none on a virgin interface."""
-        x = np.asarray(memory.get("force", 0.0))
+        """The force remembered; none on a virgin interface, or without feedback."""
+        x = np.asarray(memory.get("force", 0.0) if self.film.feedback else 0.0)
         return Exchange(x, x, np.inf, self.tolerance, smooth=False, accuracy=_ACCURACY, note=_Note(was_dry=not x > 0.0))
 
     def share(self, exchange: Exchange) -> Share:
@@ -260,6 +270,8 @@ class MeniscusCoupling(Coupling):
         note = replace(note, found=found, force=latest, borne=x, rounds=note.rounds + 1, external=external or 0.0)
         if note.rounds == 1:
             note = replace(note, first=latest, was_open=found.share("kept") < COLLAPSED)
+        if not self.film.feedback:
+            return replace(exchange, residual=0.0, note=note)
         if external is None:
             return replace(exchange, x=np.asarray(latest), target=np.asarray(latest), residual=0.0, note=note)
         step = latest - x
@@ -366,16 +378,23 @@ class MeniscusCoupling(Coupling):
         """Force to go on from, and the menisci."""
         note, external = exchange.note, contact.posed.external_force
         assert note.found is not None
-        feedback = 0.0
-        if external is not None and note.force > 0.0:
+        feedback, fed = 0.0, note.force if self.film.feedback else 0.0
+        if external is not None and fed > 0.0:
             feedback = 1.0 - note.first / note.force if note.was_dry else math.nan
+        if external is None:
+            external = contact.force - fed
         grid = contact.posed.operator.grid
+        if isinstance(self.friction, Coulomb):
+            coefficient = self.friction.largest
+        else:  # adhesional: what the contact bears, whatever presses it
+            borne, carried = float(self.friction.bound(contact.pressure).sum()), external + note.force
+            coefficient = borne * grid.pixel_area / carried if carried > 0.0 else 0.0
         found = Menisci(
             film=self.film,
             wetting=note.found,
-            external_force=contact.force - note.force if external is None else external,
+            external_force=external,
             meniscus_force=note.force,
-            dry_friction=self.friction.largest,
+            dry_friction=coefficient,
             viscous_force=viscous_force(contact.gap, grid, note.found, self.film, self.friction.speed),
             feedback=feedback,
         )

@@ -42,6 +42,9 @@ class LiquidFilm:
         In Pa s, NaN where not known; for the viscous part of friction only.
     shear_strength
         Shear stress in Pa that the liquid bears at most; infinite by default.
+    feedback
+        Whether the menisci press the surfaces together. If not, their force is that in the gap of
+        the load alone, and no part of what the contact carries.
 
     Raises
     ------
@@ -55,6 +58,7 @@ class LiquidFilm:
     contact_angles: tuple[float, float] = (0.0, 0.0)
     viscosity: float = math.nan
     shear_strength: float = math.inf
+    feedback: bool = True
     citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Peng2001", "TianBhushan1996")
 
     def __post_init__(self) -> None:
@@ -80,6 +84,7 @@ class LiquidFilm:
         *,
         meniscus_height: float = math.nan,
         contact_angles: tuple[float, float] = (0.0, 0.0),
+        feedback: bool = True,
     ) -> Self:
         """Film of ``liquid`` with a given thickness and meniscus height in m."""
         return cls(
@@ -88,6 +93,7 @@ class LiquidFilm:
             meniscus_height=meniscus_height,
             contact_angles=contact_angles,
             viscosity=liquid.viscosity,
+            feedback=feedback,
         )
 
     @classmethod

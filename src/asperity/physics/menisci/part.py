@@ -20,6 +20,7 @@ from ..friction.part import friction_law, sticks
 from .quantities import WET_SCALARS
 
 if TYPE_CHECKING:
+    from ...solids.library import Liquid
     from ..friction.law import FrictionLaw
     from .film import LiquidFilm
 
@@ -52,6 +53,11 @@ class FilmSettings(Settings):
     viscosity: Viscosity | None = setting(None, option="--viscosity", help="For the viscous part of friction: 10mPa*s")
     shear_strength: Pressure | None = setting(
         None, option="--shear-strength", help="Of the liquid, at which its viscous stress ends: 10MPa"
+    )
+    feedback: bool = setting(
+        True,
+        option="--meniscus-feedback",
+        help="Let the menisci press the surfaces together; else their force is that in the gap of the load alone",
     )
 
     @model_validator(mode="after")
@@ -88,6 +94,22 @@ class Wetted:
     friction: FrictionLaw
 
 
+def substance_of(document: Any, folder: Path) -> Liquid:
+    """The liquid of the table [film], whose liquids file starts at ``folder``.
+
+    InputError if it is unknown.
+    """
+    from ...solids.library import Liquid, liquid
+
+    table: FilmSettings = document.film
+    tension = math.nan if table.surface_tension is None else table.surface_tension
+    if table.liquid is None:
+        return Liquid(tension)
+    own = None if table.liquids_file is None else folder / table.liquids_file
+    named = liquid(table.liquid, library=own)
+    return named if math.isnan(tension) else replace(named, surface_tension=tension)
+
+
 class Menisci(Part):
     """Menisci that press the surfaces together."""
 
@@ -113,17 +135,10 @@ class Menisci(Part):
         InputError
             If the liquid is unknown, does not wet, or lacks a value that is needed.
         """
-        from ...solids.library import Liquid, liquid
         from .film import LiquidFilm
 
         table: FilmSettings = document.film
-        tension = math.nan if table.surface_tension is None else table.surface_tension
-        if table.liquid is None:
-            substance = Liquid(tension)
-        else:
-            own = None if table.liquids_file is None else folder / table.liquids_file
-            substance = liquid(table.liquid, library=own)
-            substance = substance if math.isnan(tension) else replace(substance, surface_tension=tension)
+        substance = substance_of(document, folder)
         angles = table.contact_angle
         sides = (angles[0], angles[1] if len(angles) == 2 else 0.0)
         if table.humidity is not None:
@@ -133,7 +148,9 @@ class Menisci(Part):
             height = math.nan if table.meniscus_height is None else table.meniscus_height
             film = LiquidFilm.of(substance, float(table.thickness or 0.0), meniscus_height=height, contact_angles=sides)
         known = {key: value for key in ("viscosity", "shear_strength") if (value := getattr(table, key)) is not None}
-        return Wetted(replace(film, **known), friction_law(document.friction, sheared=sticks(document)))
+        return Wetted(
+            replace(film, feedback=table.feedback, **known), friction_law(document.friction, sheared=sticks(document))
+        )
 
     def coupling(self, ask: Wetted) -> Mapping[str, Any]:
         """The film joins the solve."""

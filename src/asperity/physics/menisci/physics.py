@@ -10,7 +10,7 @@ import numpy as np
 
 from ...contact.problem import ContactProblem, Physics, Preparing
 from ...core.errors import InputError
-from ..friction.law import Coulomb
+from ..friction.law import Coulomb, TrescaFriction
 from .film import LiquidFilm
 
 if TYPE_CHECKING:
@@ -39,14 +39,16 @@ class Wet(Physics):
         }.items():
             if isinstance(getattr(friction, name, 0.0), np.ndarray):
                 raise InputError(f"{what} beside a film of liquid must be one number, but is an array.")
-        if not isinstance(friction, Coulomb | None):
+        if not isinstance(friction, Coulomb | TrescaFriction | None):
             raise InputError(
-                f"friction beside a film of liquid must be Coulomb(coefficient) or None, but is {friction!r}."
+                "friction beside a film of liquid must be Coulomb(coefficient), TrescaFriction(strength) or None, but "
+                f"is {friction!r}."
             )
 
     def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
         """The force of the menisci."""
         from .coupling import TOLERANCE, MeniscusCoupling
 
-        dry = problem.friction if isinstance(problem.friction, Coulomb) else Coulomb(0.0)
+        friction = problem.friction
+        dry = friction if isinstance(friction, Coulomb | TrescaFriction) else Coulomb(0.0)
         yield MeniscusCoupling(self.film, problem.boundary.wraps, dry, how.tolerances.get("menisci", TOLERANCE))

@@ -8,6 +8,7 @@ WET_SCALARS = (
     Quantity("external_force", "N", "external force"),
     Quantity("meniscus_force", "N", "meniscus force"),
     Quantity("relative_meniscus_force", "1", "meniscus force / external force"),
+    Quantity("unfed_meniscus_force", "N", "meniscus force in the gap of the external force alone"),
     Quantity("suction", "Pa", "pressure deficit in the menisci"),
     Quantity("meniscus_height", "m", "meniscus height"),
     Quantity("film_thickness", "m", "film thickness"),

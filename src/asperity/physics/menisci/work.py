@@ -63,11 +63,12 @@ class MenisciWork(Work):
         more = f"{times(result.relative_meniscus_force, 3)} times the external force"
         if math.isnan(result.relative_meniscus_force):
             more = "more than the contact force"
-        sentence = f"Menisci on {share} of the nominal area pull with {pull}, {more}."
+        unfed = "" if film.feedback else ", without feedback: in the gap of the load alone"
+        sentence = f"Menisci on {share} of the nominal area pull with {pull}, {more}{unfed}."
         if regime == "dry":
             sentence = "No liquid bridges the gap: the contact is dry."
         tables = (("", Table(("Quantity", "Value"), tuple(cells))),)
-        return Words(sentence, rows=rows, tables=tables, remarks=(REMARK,))
+        return Words(sentence, rows=rows, tables=tables, remarks=(REMARK if film.feedback else UNFED_REMARK,))
 
 
 class WetTheoryWork(Work):
@@ -101,6 +102,13 @@ REMARK = (
     "menisci without the solid contact, and presses the surfaces together as an additional load."
 )
 """What the model assumes."""
+
+
+UNFED_REMARK = (
+    "The film lies as it was before contact and is not redistributed; the suction acts on the area of the "
+    "menisci without the solid contact, in the gap of the load alone: it is no part of what the contact carries."
+)
+"""What it assumes where the menisci are not fed back."""
 
 
 THEORY_REMARK = (

@@ -101,6 +101,8 @@ def settle_forces(
         If the interface bears no such force.
     """
     held = partial(settle, couplings=couplings, solver=solver, rounds=rounds, progress=progress)
+    if not next(c for c in couplings if isinstance(c, MeniscusCoupling)).film.feedback:
+        return held(posed, memories=memories)
     search = _Search(posed, couplings, memories, held)
     first: Settled | None = None
     try:

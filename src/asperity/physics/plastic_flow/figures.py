@@ -285,6 +285,29 @@ def plot_hardness_depth(shown: PlasticPicture, ax: Axes) -> Axes:
     return legend_above(ax)
 
 
+def plot_mesh(shown: PlasticPicture, ax: Axes) -> Axes:
+    """Draw on ``ax`` the lines of the mesh under the indenter, with the interfaces of layers."""
+    cut = shown.cut
+    length = scale(float(cut.depth[-1]), "m")
+    right, deep = (float(length(line[-1])) for line in (cut.across, cut.depth))
+    ax.vlines(length(cut.across), 0.0, deep, color=BLACK, linewidth=0.3)
+    ax.hlines(length(cut.depth), float(length(cut.across[0])), right, color=BLACK, linewidth=0.3)
+    for depth in cut.interfaces:
+        if depth <= float(cut.depth[-1]):
+            ax.axhline(float(length(depth)), color=VERMILLION, linewidth=1.0)
+    ax.set(xlabel=f"{cut.axis} ({length.symbol})", ylabel=f"depth ({length.symbol})", aspect="equal")
+    ax.set_xlim(float(length(cut.across[0])), right)
+    ax.set_ylim(deep, 0.0)
+    return ax
+
+
+MESH = Plot(
+    "mesh",
+    "Mesh",
+    "Elements under the indenter, finest where it touches; they grow to the far boundary beyond. Red lines are "
+    "interfaces of layers.",
+    plot_mesh,
+)
 ZONES = Plot(
     "plastic_zones",
     "Plastic zones",
@@ -362,6 +385,7 @@ def plots_of(shown: PlasticPicture, prefix: str = "") -> tuple[Plot, ...]:
     made += [CURVE] if shown.approach.size > 1 else []
     made += [IMPRINT] if shown.imprint.size else []
     made += [HARDNESS] if shown.mean_pressure.size > 1 else []
+    made += [MESH] if prefix == "indentation" else []
     return tuple(replace(plot, name=f"{prefix}_{plot.name}") if prefix else plot for plot in made)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
@@ -28,9 +28,11 @@ from ...plots.picture import (
     CURVE_SIZE,
     GREEN,
     ORANGE,
+    PRESSURE_MAP,
     PURPLE,
     SKY,
     VERMILLION,
+    VIEW_SIZE,
     Drawing,
     Figure,
     apart,
@@ -44,6 +46,7 @@ from ...plots.picture import (
     scale,
     size_of,
 )
+from ...plots.view import draw_view, thinned
 from .field import DERIVED, StressField
 from .regions import Plane
 from .survey import StressSurvey, SurveyedSection
@@ -323,6 +326,9 @@ def line_figures(survey: StressSurvey, boundary: Boundary) -> Iterator[Figure]:
         )
 
 
+VIEW_POINTS = 120
+"""Points along the longer side of a view."""
+
 PEAK = 0.5
 """Share of the largest stress above which points about the maximum are enlarged."""
 
@@ -355,6 +361,29 @@ def map_figure(plane: StressField, number: int, boundary: Boundary, *, step: int
     text = f"Map of the von Mises stress at {depth}{side}, in {section.region.name}."
     title = f"Von Mises stress at {depth}{side}"
     return Figure(f"stress_plane_{number}", title, text, draw, "map", lambda: shown, of=step)
+
+
+def view_figure(planes: Sequence[StressField], *, step: int = 0) -> Figure | None:
+    """Figure in space of the von Mises stress on that of the whole ``planes`` on which it is
+    largest; None without a plane, or on a line."""
+    wide = [plane for plane in planes if 1 not in (plane.x.size, plane.y.size)]
+    if not wide:
+        return None
+    plane = max(wide, key=lambda each: float(each.von_mises[0].max()))
+    section, grid = plane.planes[0], Grid((plane.x.size, plane.y.size), plane.spacing)
+    stress = np.asarray(plane.von_mises[0], dtype=np.float32)
+    depth = "the surface" if section.side == "surface" else f"a depth of {show(section.depth, 'm')}"
+
+    def draw() -> Drawing:
+        hills, blocks = thinned(stress, grid, np.max, VIEW_POINTS)
+
+        def view(ax: Axes) -> Axes:
+            return draw_view(hills, blocks, ax, Look("Pa", "von Mises stress", PRESSURE_MAP), 2.0)
+
+        return Drawing(png(view, VIEW_SIZE, projection="3d"))
+
+    text = f"Von Mises stress at {depth}, in {section.region.name}, as hills; the highest of each block of points."
+    return Figure("stress_view", f"Von Mises stress in space at {depth}", text, draw, "view", of=step)
 
 
 def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[Figure]:

@@ -19,7 +19,7 @@ from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work, requi
 from ...plots.picture import Figure
 from ...solids.elastic import TABOR, Rigid, yield_pressure
 from ...solids.layers import Layered, materials_of
-from .figures import line_figures, map_figure
+from .figures import line_figures, map_figure, view_figure
 from .part import _LARGEST, StoredSurvey, StressSettings
 from .peaks import FAILS, Peak, peak_text, verdict
 from .regions import Region
@@ -92,10 +92,15 @@ class StressWork(Work):
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Sections, profiles and whole planes."""
         survey = found.detail
-        planes = enumerate(survey.wanted_planes(), start=1)
+        planes = tuple(survey.wanted_planes())
+        view = view_figure(planes, step=survey.step)
         return (
             *line_figures(survey, solved.problem.boundary),
-            *(map_figure(plane, number, solved.problem.boundary, step=survey.step) for number, plane in planes),
+            *(
+                map_figure(plane, number, solved.problem.boundary, step=survey.step)
+                for number, plane in enumerate(planes, start=1)
+            ),
+            *(() if view is None else (view,)),
         )
 
     def stored(self, found: Found) -> Stored:

@@ -15,6 +15,7 @@ from ...core.errors import InputError
 from ...core.parameters import Help
 from ...core.quadrature import gauss
 from ...core.quantity import Quantity
+from ...core.scipy_parts import interpolate
 from ...core.values import Number, Positive
 from ..protocol import FEW_CONTACTS, GENTLE_SLOPES, Bound, MeanSquareHeight, Modulus, SeparationTheory
 from ..single.hertz import ellipse
@@ -358,24 +359,20 @@ class BushGibsonKeogh(SeparationTheory):
 @functools.cache
 def _log_moment(k: float) -> CubicSpline:
     """ln F_k(t) as a spline, to 1e-11 of F_k; beyond where numbers end by its asymptote."""
-    from scipy.interpolate import CubicSpline
-
     t = np.arange(-_SPAN, _SPAN, _FINE)
     far = t > _NUMBERS_END
     logs = np.log(GaussianHeights().tail_moment(np.where(far, _NUMBERS_END, t), k))
     rest = -0.5 * (t * t - _NUMBERS_END**2) - (k + 1.0) * np.log(np.maximum(t, 1.0) / _NUMBERS_END)
-    return CubicSpline(t, logs + np.where(far, rest, 0.0))
+    return interpolate.CubicSpline(t, logs + np.where(far, rest, 0.0))
 
 
 @functools.cache
 def _log_ellipse() -> CubicSpline:
     """ln f_A and ln f_P of Hertz's ellipse as a spline of the logarithm of the ratio of the
     curvatures."""
-    from scipy.interpolate import CubicSpline
-
     shape = ellipse(np.exp(np.linspace(_SLIM, 0.0, _TABLE)[::-1]))
     ratio = np.log1p(shape.r) - np.log1p(-shape.r)
-    return CubicSpline(ratio, np.log(np.stack([shape.area, shape.load], axis=-1)))
+    return interpolate.CubicSpline(ratio, np.log(np.stack([shape.area, shape.load], axis=-1)))
 
 
 def _ellipses(r: RealArray) -> tuple[RealArray, RealArray]:

@@ -15,6 +15,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.late import Tabled
 from ...core.quantity import Quantity
+from ...core.scipy_parts import special
 from ...core.values import Number, Several
 from ..ask import PRESSURE, Way, asked
 from ..protocol import GENTLE_SLOPES, Bound, Modulus, Theory, checked, curve, real_numbers
@@ -25,9 +26,7 @@ from .persson import IsotropicSpectrum
 def tension_share(pressure: ArrayLike, spread: ArrayLike) -> RealArray:
     """Share of the area of full contact under tension: Q(p/s) for a mean ``pressure`` p in Pa and a
     ``spread`` s in Pa, > 0, of the pressure; of one shape."""
-    from scipy.special import ndtr
-
-    return np.asarray(ndtr(-np.asarray(pressure) / np.asarray(spread)))
+    return np.asarray(special.ndtr(-np.asarray(pressure) / np.asarray(spread)))
 
 
 def mean_tension(pressure: ArrayLike, spread: ArrayLike) -> RealArray:

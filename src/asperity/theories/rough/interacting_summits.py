@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
 from ...core.parameters import Help
+from ...core.scipy_parts import optimize
 from ...core.values import Number, Several
 from ..protocol import (
     BLUNT_SUMMITS,
@@ -303,13 +304,12 @@ class _Spots:
     def first_overlap(self, high: float, low: float, near: RealArray) -> float:
         """Separation in m at which contacts touch, which they do not at ``high`` and do at ``low``,
         where the state is ``near``."""
-        from scipy.optimize import brentq
 
         def excess(separation: float) -> float:
             return self.overlap(self.squares(separation, near)).largest - 1.0
 
         unit = abs(self.crests.highest) + abs(low)
-        return float(brentq(excess, high, low, xtol=1e-15 * unit, rtol=1e-14))
+        return float(optimize.brentq(excess, high, low, xtol=1e-15 * unit, rtol=1e-14))
 
     def pressure(self, w: RealArray) -> float:
         """Nominal pressure in Pa of contacts of squared radii ``w``."""

@@ -16,6 +16,7 @@ from ...core.errors import InputError, NoSolutionError
 from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quantity import Quantity
+from ...core.scipy_parts import optimize, special
 from ...core.values import HardnessValue, Length, Number
 from ..ask import PRESSURE, Way, asked
 from ..protocol import (
@@ -227,8 +228,6 @@ class FractalSpots(Theory):
 
         NoSolutionError if even full contact carries less than the load.
         """
-        from scipy.optimize import brentq
-
         wanted = require.positive(load, "load (N)")
         full = float(self.sizes.largest(self.nominal_area))
         most = float(self.load(full))
@@ -241,7 +240,9 @@ class FractalSpots(Theory):
         low = log_full - 1.0
         while float(self.load(math.exp(low))) > wanted:
             low -= 2.0 * (log_full - low)
-        found = brentq(lambda log_a: math.log(float(self.load(math.exp(log_a))) / wanted), low, log_full, xtol=1e-13)
+        found = optimize.brentq(
+            lambda log_a: math.log(float(self.load(math.exp(log_a))) / wanted), low, log_full, xtol=1e-13
+        )
         return math.exp(found)
 
 
@@ -347,12 +348,10 @@ class MajumdarBhushan(FractalSpots):
 
     def elastic_load(self, largest: ArrayLike) -> RealArray:
         """Load in N on elastic spots: ∫ (4√π/3) E* G^(D-1) a^((3-D)/2) n(a) da from a_c to a_l."""
-        from scipy.special import exprel
-
         d, excess, a = self.dimension, self._excess(largest), spot_areas(largest)
         # (a_l^e - a_c^e)/2e with e = (3 - 2D)/2, which at D = 3/2 is half the logarithm
         e = 1.5 - d
-        bracket = a**e * 0.5 * excess * exprel(-e * excess)
+        bracket = a**e * 0.5 * excess * special.exprel(-e * excess)
         front = 4.0 * math.sqrt(math.pi) / 3.0 * self.E_star * self.roughness ** (d - 1.0) * d
         return np.asarray(front * a ** (0.5 * d) * bracket)
 
@@ -529,8 +528,6 @@ class BifractalMajumdarBhushan(FractalSpots):
     def elastic_load(self, largest: ArrayLike) -> RealArray:
         """Load in N on elastic spots: ∫ (4√π/3) E* G_i^(D_i-1) a^((3-D_i)/2) n(a) da of both
         branches."""
-        from scipy.special import exprel
-
         a = spot_areas(largest)
         found = np.zeros(a.shape)
         for branch, theory in zip(self.sizes.branches(a), (self.coarse, self.fine), strict=True):
@@ -538,5 +535,5 @@ class BifractalMajumdarBhushan(FractalSpots):
             front = 4.0 * math.sqrt(math.pi) / 3.0 * self.E_star * theory.roughness ** (theory.dimension - 1.0)
             # ∫ a^(1/2 - D) da, at D = 3/2 a logarithm
             power, span = 1.5 - branch.dimension, np.log(branch.high / start)
-            found += front * branch.factor * branch.high**power * span * exprel(-power * span)
+            found += front * branch.factor * branch.high**power * span * special.exprel(-power * span)
         return found

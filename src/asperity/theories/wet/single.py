@@ -1,8 +1,9 @@
-"""One meniscus as a theory of the catalogue: a sphere in a droplet or a film, and a meniscus in
-equilibrium with vapour."""
+"""One meniscus as a theory of the catalogue: a sphere in a droplet or a film, a meniscus in
+equilibrium with vapour, and one that grows from it."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, TypeAlias
 
@@ -14,14 +15,19 @@ from ...core.errors import InputError
 from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quantity import Quantity
+from ...core.scipy_parts import optimize
 from ...core.values import Length, Number
 from ..ask import Way, asked
 from ..protocol import Theory, checked
+from .feeds import DIFFUSIVITY, WATER_VAPOUR, VapourFeed
 from .meniscus import ROOM_TEMPERATURE, adsorbed_water_film, droplet_force, film_force, kelvin_radius, wetting_factor
 
 Tension: TypeAlias = Annotated[float, Number("N/m", above=0.0), Help("surface tension of the liquid", of="bodies")]
 SphereRadius: TypeAlias = Annotated[Length, Help("radius R of the sphere", of="bodies")]
 Angle: TypeAlias = Annotated[float, Number("angle"), Help("contact angle on the sphere", of="bodies")]
+
+_SETTLED = 34.0
+"""-ln(1 - s/s_eq) from which a meniscus is as high as it gets, to rounding."""
 
 PULL: tuple[Way, ...] = (
     Way(
@@ -162,3 +168,119 @@ class VapourMeniscus(Theory):
         radius = np.array([kelvin_radius(float(share), *numbers) for share in shares.ravel()]).reshape(shares.shape)
         film = np.array([adsorbed_water_film(float(share)) for share in shares.ravel()]).reshape(shares.shape)
         return VapourAnswer(radius, self.surface_tension / radius, film)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class GrownAnswer(Tabled):
+    """Height in m and volume in m³ of a growing meniscus, and its height over that of equilibrium;
+    arrays of one shape."""
+
+    height: RealArray
+    volume: RealArray
+    share: RealArray
+
+
+@dataclass(frozen=True)
+class VapourGrowth(Theory):
+    """Meniscus around a touching sphere that condenses from vapour of the relative humidity φ.
+
+    Vapour diffuses through the wedge to the meniscus of the volume π R s², whose vapour pressure is
+    Kelvin's:
+
+        ds/dt = (2 D/R) V c_s [φ - exp(-λ/s)],  λ = γ c V/(R_g T),  c_s = p_s/(R_g T).
+
+    c is the sum of cosines. Free diffusion: gaps are below the mean free path of 0.1 µm, in which
+    vapour is slower by about its ratio to the gap, so that times are lower bounds.
+
+    Examples
+    --------
+    >>> water = {"surface_tension": 0.07275, "molar_volume": 1.8048e-5}
+    >>> ball = VapourGrowth(radius=1e-3, **water, humidity=0.99, start=0.6e-9)
+    >>> print(f"{ball.equilibrium_height * 1e9:.0f} nm, 99 % of it after {ball.settling:.1f} s")
+    107 nm, 99 % of it after 46.5 s
+    """
+
+    radius: SphereRadius
+    surface_tension: Tension
+    molar_volume: Annotated[float, Number("m^3/mol", above=0.0), Help("molar volume of the liquid", of="bodies")]
+    humidity: Annotated[float, Number("1", above=0.0, below=1.0), Help("relative humidity φ", of="bodies")]
+    start: Annotated[Length, Help("height at the beginning, that of the adsorbed film", of="bodies")]
+    contact_angle: Angle = 0.0
+    other_angle: Annotated[float, Number("angle"), Help("contact angle on the flat", of="bodies")] = 0.0
+    vapour_pressure: Annotated[
+        float, Number("pressure", above=0.0), Help("saturation pressure of the vapour", of="bodies")
+    ] = WATER_VAPOUR
+    diffusivity: Annotated[float, Number("m^2/s", above=0.0), Help("of the vapour in air", of="bodies")] = DIFFUSIVITY
+    temperature: Annotated[float, Number("temperature", above=0.0), Help("temperature", of="bodies")] = ROOM_TEMPERATURE
+    name: ClassVar[str] = "vapour-growth"
+    title: ClassVar[str] = "Meniscus of a sphere that grows from vapour"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Kohonen1999", "Bhushan1998")
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("equilibrium_height", "m", "height in equilibrium with the vapour"),
+        Quantity("settling", "s", "time to 99 % of that height"),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(
+            asked("time", "s", "time after contact"),
+            "at_time",
+            (
+                Quantity("height", "m", "height of the meniscus"),
+                Quantity("volume", "m^3", "volume of the liquid"),
+                Quantity("share", "1", "height over that of equilibrium"),
+            ),
+        ),
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not self.start < self.equilibrium_height:
+            raise InputError(
+                f"height at the beginning (m) must be less than {self.equilibrium_height:.3g}, that of equilibrium, "
+                f"for a meniscus to grow, but is {self.start:.3g}."
+            )
+
+    @property
+    def feed(self) -> VapourFeed:
+        """What the vapour brings."""
+        wetting = wetting_factor(self.contact_angle, self.other_angle)
+        liquid = (self.surface_tension, self.molar_volume, self.humidity, self.vapour_pressure)
+        return VapourFeed(*liquid, self.diffusivity, wetting, self.temperature)
+
+    @property
+    def equilibrium_height(self) -> float:
+        """Height in m in equilibrium with the vapour."""
+        return self.feed.equilibrium_height
+
+    @property
+    def settling(self) -> float:
+        """Time in s to 99 % of it."""
+        return self.time_to(max(0.99 * self.equilibrium_height, self.start))
+
+    def time_to(self, height: float) -> float:
+        """Time in s until the meniscus has this ``height`` in m, from the beginning to
+        equilibrium."""
+        return self.feed.time_on_sphere(self.radius, self.start, height)
+
+    def at_time(self, time: ArrayLike) -> GrownAnswer:
+        """Meniscus at the ``time`` in s, >= 0, of any shape."""
+        times, final = checked(time, "time (s)"), self.equilibrium_height
+        if not np.all(times >= 0.0):
+            raise InputError(f"time (s) must not be negative, but is {float(times.min()):g}.")
+        first = -math.log1p(-self.start / final)
+
+        def late(u: float, moment: float) -> float:
+            return self.time_to(-final * math.expm1(-u)) - moment
+
+        found = []
+        for moment in times.ravel():
+            last = first + 1.0
+            while last < _SETTLED and late(last, float(moment)) < 0.0:
+                last += 1.0
+            high = last >= _SETTLED
+            found.append(
+                final
+                if high
+                else -final * math.expm1(-optimize.brentq(late, first, last, (float(moment),), rtol=1e-13))
+            )
+        heights = np.array(found, dtype=float).reshape(times.shape)
+        return GrownAnswer(heights, np.asarray(math.pi * self.radius * heights**2), heights / final)
