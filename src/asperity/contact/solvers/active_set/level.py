@@ -25,7 +25,7 @@ from ....core.status import Progress
 from ..protocol import ContactQP, FixedMean, SolverState, multiplier
 from .solver import ActiveSet, Loaded
 
-# What other values of the constants change: docs/develop/constants.md.
+# What other values of the constants change: docs/develop/solver-history.md.
 
 _UNDER = 0.05
 """Logarithm of the load by which the first contact is to lie below the level. From below, points
