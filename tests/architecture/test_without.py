@@ -51,9 +51,9 @@ EVERY = 40
 for each physics."""
 
 
-OF_ALL = ("test_every_reference_is_named_by_the_code",)
-"""Tests of the whole package that no physics can be left out of: papers are listed whoever rests on
-them."""
+OF_ALL = ("test_every_reference_is_named_by_the_code", "test_examples")
+"""Tests, and files of them, of the whole package that no physics can be left out of: papers are
+listed whoever rests on them, examples are of several physics."""
 
 
 def left_out(physics: str) -> frozenset[str]:

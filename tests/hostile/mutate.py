@@ -283,11 +283,11 @@ def in_netcdf(file: Path, random: Random) -> None:
                         node.attrs[key] = in_text(old.encode(), random).decode("utf-8", "replace")
                     else:
                         node.attrs[key] = new
-                elif isinstance(node, h5py.Dataset) and node.dtype.kind == "f" and random.random() < 0.6:
+                elif isinstance(node, h5py.Dataset) and node.dtype.kind == "f" and node.size and random.random() < 0.6:
                     numbers = node[...]
                     np.put(
                         numbers,
-                        random.randrange(max(numbers.size, 1)),
+                        random.randrange(numbers.size),
                         random.choice([np.nan, np.inf, -1e308, 0.0, 1e-300]),
                     )
                     node[...] = numbers

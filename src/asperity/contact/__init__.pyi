@@ -4,10 +4,9 @@ from .boundary import Boundary, Free, FreeLine, Periodic
 from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .full import FullContactField, full_contact
 from .history import EnergyBalance, History, HistoryResult, ramps
-from .interference import Interference, complementary_energy, interference
 from .line_contact import line_problem
 from .problem import ContactProblem, Flat
-from .result import ContactResult
+from .result import ContactResult, Interference, complementary_energy, interference
 from .solve import Keep, solve, steps
 from .time_division import TimeSteps
 

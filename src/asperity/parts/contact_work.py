@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..contact.history import HistoryResult
-from ..contact.interference import complementary_energy, interference
 from ..contact.problem import ContactProblem
-from ..contact.result import PLASTIC_FRACTION, SCALARS, ContactResult
+from ..contact.result import PLASTIC_FRACTION, SCALARS, ContactResult, complementary_energy, interference
 from ..core.units import percent, show
 from ..plots.contact import PATH_PLOTS, PLASTIC_PLOTS
 from ..plots.picture import Figure, figures_by

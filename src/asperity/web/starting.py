@@ -223,6 +223,7 @@ OF_HEIGHTS: Mapping[str, Mapping[str, Value]] = MappingProxyType(
         "moments": {"skewness": "-1", "kurtosis": "5"},
         "measured": {"surface": lambda extent: extent.file},
         "two_levels": {"share": "0.3", "separation": "3"},
+        "weibull": {"shape": "2"},
     }
 )
 """Of each distribution of heights."""

@@ -491,6 +491,7 @@ def test_schema_is_json_and_names_every_table() -> None:
         "sensitivities",
         "uncertainty",
         "flow_factors",
+        "prediction",
     }
     assert schema["additionalProperties"] is False
     body = schema["$defs"]["BodyTable"]

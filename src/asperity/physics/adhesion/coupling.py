@@ -165,13 +165,10 @@ class AdhesionCoupling(Coupling):
         mean = None if posed.external_force is None else posed.external_force / self.operator.grid.area
         solution = self._solved(posed, posed.dented, np.inf, mean, pull, posed.start)
         note = _Note(posed, before, posed.dented, solution, mean)
-        x, begun = solution.state.pull, solution.state.pressure
-        found = Exchange(
+        x = solution.state.pull
+        return Exchange(
             x, x, np.inf, self.tolerance, smooth=False, final=_FINAL, scale=min(self.law.strength, 1e300), note=note
         )
-        if solution.status.converged and isinstance(self.solver, MajoriseMinimise) and begun.any():
-            return replace(found, pressure=begun, exact=True)  # the contact is known but for other couplings
-        return found
 
     def _solved(
         self,
@@ -252,7 +249,6 @@ class AdhesionCoupling(Coupling):
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """The attraction of the gap of ``contact``; solved anew where other couplings have moved
         it."""
-        exchange = replace(exchange, pressure=None, exact=False)
         note: _Note = exchange.note
         pressure = np.asarray(contact.pressure, dtype=float)
         core = self._core(note.solution.state)

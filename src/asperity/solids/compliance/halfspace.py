@@ -13,7 +13,7 @@ from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.grid import Grid
 from ..layers import Body, Layered, contact_modulus, deformable, materials_of
-from .influence import patch_displacements, wavenumbers
+from .influence import patch_displacement, wavenumbers
 from .layered import LayerStack
 
 
@@ -73,7 +73,8 @@ class HalfSpace:
 
     def influence(self, grid: Grid) -> RealArray:
         """Love's coefficients in m/Pa, shape (nx, ny), for constant pressure on each pixel."""
-        return patch_displacements(grid) / self.modulus
+        x, y = grid.coordinates()
+        return patch_displacement(x, y, *grid.spacing) / self.modulus
 
     def line_influence(self, grid: Grid, datum: float) -> RealArray:
         """Coefficients in m/Pa, shape (nx, 1), for constant pressure on strips of width dx, zero at

@@ -57,39 +57,13 @@ def patch_displacement(x: RealArray, y: RealArray, side_x: float, side_y: float)
     a, b = 0.5 * side_x, 0.5 * side_y
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
     corners = _corner(x + a, y + b) - _corner(x + a, y - b) - _corner(x - a, y + b) + _corner(x - a, y - b)
-    return _with_far_field(corners / np.pi, x, y, a, b)
-
-
-def patch_displacements(grid: Grid) -> RealArray:
-    """``patch_displacement`` (nx, ny) at offsets (0…nx-1, 0…ny-1) of a ``grid`` from one of its
-    pixels, each corner once."""
-    (nx, ny), (dx, dy) = grid.shape, grid.spacing
-    x, y = (np.arange(nx + 1)[:, None] - 0.5) * dx, (np.arange(ny + 1)[None, :] - 0.5) * dy
-    if (nx, dx) == (ny, dy):
-        half = np.zeros((nx + 1, ny + 1))
-        upper = np.triu_indices(nx + 1)
-        half[upper] = _corner(x[upper[0], 0], y[0, upper[1]])
-        corners: RealArray = half + half.T
-        np.fill_diagonal(corners, half.diagonal())
-    else:
-        corners = _corner(x, y)
-    near = np.diff(np.diff(corners, axis=0), axis=1) / np.pi
-    return _with_far_field(near, x[:-1] + 0.5 * dx, y[:, :-1] + 0.5 * dy, 0.5 * dx, 0.5 * dy)
-
-
-def _with_far_field(near: RealArray, x: RealArray, y: RealArray, a: float, b: float) -> RealArray:
-    """Displacement ``near`` a rectangle of the half sides ``a`` and ``b``, and that of a point load
-    with second moments far from it."""
     r = np.hypot(x, y)
-    distant = r > 2.0 * _FAR * max(a, b)
-    if not distant.any():
-        return near
-    far = r[distant]
-    xx, yy = ((np.broadcast_to(along, r.shape)[distant] / far) ** 2 for along in (x, y))
+    distant = r > _FAR * max(side_x, side_y)
+    far = np.where(distant, r, 1.0)
+    xx, yy = (x / far) ** 2, (y / far) ** 2
     moments = 1.0 + (a**2 * (3.0 * xx - 1.0) + b**2 * (3.0 * yy - 1.0)) / (6.0 * far**2)
-    near = np.array(near)
-    near[distant] = 4.0 * a * b / (np.pi * far) * moments
-    return near
+    near_field: RealArray = corners / np.pi
+    return np.where(distant, 4.0 * a * b / (np.pi * far) * moments, near_field)
 
 
 def _corner(x: RealArray, y: RealArray) -> RealArray:
