@@ -44,13 +44,3 @@ def test_no_step_raises_the_energy(name: str) -> None:
         state = method.step(qp, state)
     assert state.error <= 1e-9
     assert (np.diff(energies) <= 1e-13 * np.abs(energies).max()).all()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("load", [0.005, 0.05])
-def test_a_million_points(load: float) -> None:
-    """Light and heavy contact of 1024² points, certified and equal to the default."""
-    found, default = certified((1024, 1024), asp.Periodic(), asp.plasticity.HardWall(), load)
-    assert found.converged
-    bound = np.sqrt(TOLERANCE) * default.max_pressure
-    np.testing.assert_allclose(found.pressure, default.pressure, rtol=0.0, atol=bound)
