@@ -40,6 +40,7 @@ from asperity.solvers import (
     ContactQP,
     DenseActiveSet,
     FixedOffset,
+    GradientProjection,
     Lemke,
     NonNegativeLeastSquares,
     QuasiNewton,
@@ -77,6 +78,7 @@ SOLVERS: dict[str, Solver] = {
         SteepestDescent(tolerance=1e-6),
         QuasiNewton(tolerance=1e-8),
         NonNegativeLeastSquares(),
+        GradientProjection(tolerance=1e-9),
         DenseActiveSet(),
         Lemke(),
     )

@@ -5,6 +5,7 @@ from .contact.solvers.by_name import SOLVERS, solver_by_name
 from .contact.solvers.protocol import ContactQP, FixedMean, FixedOffset, Solution, Solver, SolverState, run
 from .contact.solvers.reference.conjugate_gradient import ConjugateGradient
 from .contact.solvers.reference.dense import DenseActiveSet, Lemke
+from .contact.solvers.reference.gradient_projection import GradientProjection
 from .contact.solvers.reference.nnls import NonNegativeLeastSquares
 from .contact.solvers.reference.quasi_newton import QuasiNewton
 from .contact.solvers.reference.steepest_descent import SteepestDescent
@@ -19,6 +20,7 @@ __all__ = [
     "DenseActiveSet",
     "FixedMean",
     "FixedOffset",
+    "GradientProjection",
     "InterfaceState",
     "Lemke",
     "NonNegativeLeastSquares",

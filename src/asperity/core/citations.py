@@ -31,6 +31,7 @@ REFERENCES = {
     "Bhushan1998": "Bhushan, B. (1998). Contact mechanics of rough surfaces in tribology: multiple asperity contact. Tribology Letters 4, 1-35.",
     "BhushanKotwal1998": "Bhushan, B., Kotwal, C. A., Chilamakuri, S. K. (1998). Kinetic meniscus model for prediction of rest stiction. Journal of Tribology 120, 42-50.",
     "BhushanMajumdar1992": "Bhushan, B., Majumdar, A. (1992). Elastic-plastic contact model for bifractal surfaces. Wear 153, 53-64.",
+    "Birgin2000": "Birgin, E. G., Martínez, J. M., Raydan, M. (2000). Nonmonotone spectral projected gradient methods on convex sets. SIAM Journal on Optimization 10, 1196-1211.",
     "Blok1937": "Blok, H. (1937). Theoretical study of temperature rise at surfaces of actual contact under oiliness lubricating conditions. Proceedings of the Institution of Mechanical Engineers, General Discussion on Lubrication 2, 222-235.",
     "Boussinesq1885": "Boussinesq, J. (1885). Application des potentiels a l'etude de l'equilibre et du mouvement des solides elastiques. Gauthier-Villars, Paris.",
     "Bruggeman1935": "Bruggeman, D. A. G. (1935). Berechnung verschiedener physikalischer Konstanten von heterogenen Substanzen. Annalen der Physik 416, 636-664.",

@@ -12,6 +12,7 @@ from .active_set.solver import ActiveSet
 from .protocol import Solver
 from .reference.conjugate_gradient import ConjugateGradient
 from .reference.dense import DenseActiveSet, Lemke
+from .reference.gradient_projection import GradientProjection
 from .reference.nnls import NonNegativeLeastSquares
 from .reference.quasi_newton import QuasiNewton
 from .reference.steepest_descent import SteepestDescent
@@ -28,6 +29,7 @@ SOLVERS: Mapping[str, SolverClass] = MappingProxyType(
             SteepestDescent,
             QuasiNewton,
             NonNegativeLeastSquares,
+            GradientProjection,
             DenseActiveSet,
             Lemke,
         )
