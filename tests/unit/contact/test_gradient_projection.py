@@ -25,8 +25,8 @@ def certified(shape, boundary, law, load, seed=1):
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=["periodic", "free"])
 @pytest.mark.parametrize("law", [asp.plasticity.HardWall(), asp.Hardness(0.4)], ids=["elastic", "capped"])
 def test_agrees_beyond_the_dense_limit(boundary, law) -> None:
-    """The duality gap bounds the energy of the difference; its relative size is the square root of
-    the error, of which pressures here use less than a tenth."""
+    """The duality gap bounds the energy of the difference, so that pressures differ by about the
+    square root of the error."""
     found, default = certified((96, 80), boundary, law, 0.01)
     assert found.converged
     assert found.mean_pressure == pytest.approx(0.01, rel=1e-12)
