@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import numbers as kinds
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, Protocol, Self, TypeAlias
 
@@ -426,6 +426,23 @@ def curve(values: ArrayLike, what: str, *, positive: bool = False) -> RealArray:
     if positive and not np.all(array > 0.0):
         raise InputError(f"{what} must be greater than zero, but the smallest is {float(array.min()):g}.")
     return array
+
+
+def highest_first(theory: object, of: str, positive: Mapping[str, str]) -> None:
+    """Put the arrays of a ``theory`` of single summits or crests into the order of falling height:
+    ``x``, ``y``, ``height`` and those ``positive``, fields with their words; ``of`` what they are.
+
+    InputError if one is no ``curve``, or their lengths differ.
+    """
+    columns = {name: curve(getattr(theory, name), f"{name} of {of} (m)") for name in ("x", "y", "height")}
+    for name, word in positive.items():
+        columns[name] = curve(getattr(theory, name), f"{word} of {of} (m)", positive=True)
+    if len({column.size for column in columns.values()}) != 1:
+        sizes = ", ".join(f"{name} {column.size}" for name, column in columns.items())
+        raise InputError(f"arrays of {of} must have the same length, but have {sizes}.")
+    order = np.argsort(-columns["height"], kind="stable")
+    for name, column in columns.items():
+        object.__setattr__(theory, name, column[order])
 
 
 def checked(values: ArrayLike, what: str, lowest: float = 0.0, fix: str = "") -> RealArray:

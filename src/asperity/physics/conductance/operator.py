@@ -11,9 +11,10 @@ densities for pressures, and the operators, solvers and preconditioners of the c
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -35,6 +36,18 @@ from ...solids.elastic import Elastic, Rigid, known_conduction
 from ...solids.layers import Body, Layered, deformable, surface_material
 
 
+def transfer(q: RealArray, thickness: Sequence[complex], conductivity: Sequence[complex]) -> Any:
+    """q Z of layers on a base at wavenumbers ``q`` (rad/m), from the base up:
+    q Z <- (k q Z + t) / (k (1 + k q Z t)), t = tanh q h; thicknesses and conductivities as of
+    ``LayeredConductor``, real or complex."""
+    *layers, base = conductivity
+    found: Any = np.full(np.shape(q), 0.0 if math.isinf(base.real) else 1.0 / base)
+    for h, k in zip(reversed(thickness), reversed(layers), strict=True):
+        tanh = np.tanh(q * h)
+        found = (k * found + tanh) / (k * (1.0 + k * found * tanh))
+    return found
+
+
 @dataclass(frozen=True)
 class LayeredConductor:
     """Conductor of layers, at least one, on a half-space or on a base of one potential.
@@ -52,8 +65,7 @@ class LayeredConductor:
     citation_keys: ClassVar[tuple[str, ...]] = ("Holm1967", "Hamilton2000")
 
     def spectral(self, wavenumber: ArrayLike) -> RealArray:
-        """Z(q) at ``wavenumber`` q > 0 (rad/m), from the base up: Z <- (k q Z + t)/(k q (1 + k q Z
-        t)), t = tanh q h."""
+        """Z(q) at ``wavenumber`` q > 0 (rad/m)."""
         q = wavenumbers(wavenumber)
         return self._times_wavenumber(q) / q
 
@@ -74,12 +86,7 @@ class LayeredConductor:
         return strip_coefficients(line_kernel(*self._sampled), grid, datum)
 
     def _times_wavenumber(self, q: RealArray) -> RealArray:
-        *layers, base = self.conductivity
-        found = np.full(np.shape(q), 1.0 / base)
-        for h, k in zip(reversed(self.thickness), reversed(layers), strict=True):
-            tanh = np.tanh(q * h)
-            found = (k * found + tanh) / (k * (1.0 + k * found * tanh))
-        return found
+        return np.asarray(transfer(q, self.thickness, self.conductivity))
 
     @cached_property
     def _sampled(self) -> tuple[RealArray, Limits]:

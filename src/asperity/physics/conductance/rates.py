@@ -25,7 +25,7 @@ from ...solids.compliance.influence import (
 )
 from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Body, Layered
-from .operator import Flow, LayeredConductor, conductor_of
+from .operator import Flow, LayeredConductor, conductor_of, transfer
 
 _STEP = 1e-30
 """Imaginary step, relative to a conductivity or thickness (Squire & Trapp 1998)."""
@@ -118,12 +118,7 @@ class ConductorRate:
         moved = thickness if self.of_thickness else conductivity
         step = _STEP * moved[self.layer].real
         moved[self.layer] += 1j * step
-        *layers, base = conductivity
-        found = np.full(np.shape(q), 0.0 if math.isinf(base.real) else 1.0 / base, dtype=complex)
-        for h, k in zip(reversed(thickness), reversed(layers), strict=True):
-            tanh = np.tanh(q * h)
-            found = (k * found + tanh) / (k * (1.0 + k * found * tanh))
-        return np.asarray(found.imag / step)
+        return np.asarray(transfer(q, thickness, conductivity).imag / step)
 
     @cached_property
     def _sampled(self) -> tuple[RealArray, Limits]:

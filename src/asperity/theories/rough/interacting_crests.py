@@ -16,7 +16,17 @@ from ...core.arrays import BoolArray, RealArray
 from ...core.errors import ConvergenceError, InputError
 from ...core.parameters import Help
 from ...core.values import Number, Several
-from ..protocol import FEW_CONTACTS, Bound, Limit, Modulus, Prediction, Theory, curve, prediction
+from ..protocol import (
+    FEW_CONTACTS,
+    Bound,
+    Limit,
+    Modulus,
+    Prediction,
+    Theory,
+    curve,
+    highest_first,
+    prediction,
+)
 from ..single.waves import TWO_TERMS, two_term_approach, two_term_load, two_terms
 from ..statistics.roughness import Roughness
 from .discrete_summits import DiscreteSummits
@@ -350,15 +360,7 @@ class InteractingCrests(Theory):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        columns = {name: curve(getattr(self, name), f"{name} of crests (m)") for name in ("x", "y", "height")}
-        for name in ("depth", "wavelength"):
-            columns[name] = curve(getattr(self, name), f"{name} of crests (m)", positive=True)
-        if len({column.size for column in columns.values()}) != 1:
-            sizes = ", ".join(f"{name} {column.size}" for name, column in columns.items())
-            raise InputError(f"arrays of crests must have the same length, but have {sizes}.")
-        order = np.argsort(-columns["height"], kind="stable")
-        for name, column in columns.items():
-            object.__setattr__(self, name, column[order])
+        highest_first(self, "crests", {"depth": "depth", "wavelength": "wavelength"})
 
     @classmethod
     def from_roughness(

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.arrays import BoolArray, RealArray
-from ...core.errors import InputError
 from ...core.parameters import Help
 from ...core.scipy_parts import optimize
 from ...core.values import Number, Several
@@ -24,6 +23,7 @@ from ..protocol import (
     Prediction,
     Theory,
     curve,
+    highest_first,
 )
 from ..statistics.roughness import Roughness
 from .interacting_crests import CrestSystem, InteractingCrests, settled, solve_complementarity
@@ -182,14 +182,7 @@ class InteractingSummits(Theory):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        columns = {name: curve(getattr(self, name), f"{name} of summits (m)") for name in ("x", "y", "height")}
-        columns["radius"] = curve(self.radius, "radii of summits (m)", positive=True)
-        if len({column.size for column in columns.values()}) != 1:
-            sizes = ", ".join(f"{name} {column.size}" for name, column in columns.items())
-            raise InputError(f"arrays of summits must have the same length, but have {sizes}.")
-        order = np.argsort(-columns["height"], kind="stable")
-        for name, column in columns.items():
-            object.__setattr__(self, name, column[order])
+        highest_first(self, "summits", {"radius": "radii"})
 
     @classmethod
     def of_roughness(cls, roughness: Roughness, E_star: float, *, displacement: Displacement = "hertz") -> Self:

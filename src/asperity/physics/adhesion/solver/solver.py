@@ -132,14 +132,15 @@ class MajoriseMinimise(Stepwise):
         """
         strength, pixel = problem.law.strength, problem.operator.grid.pixel_area
         work = Work()
-        accuracy = _FIRST
+        accuracy = _FIRST if self.max_steps > 1 else FINEST
         state = minimised(problem, pull, pressure, work, accuracy)
         energies, miss, newton_steps, rate = [problem.energy(state)], state.miss(strength), 0, 0.0
         count, range_ = 1, problem.law.range / (float(problem.profile.std()) or 1.0)
         while (miss > self.tolerance or accuracy > FINEST) and count < self.max_steps:
             count += 1
             expected = _SHARE * (rate or _BEST) * miss * range_  # of the gap, over the rms height
-            accuracy = min(max(expected**2, FINEST), _FIRST) if miss > self.tolerance else FINEST
+            loose = miss > self.tolerance and count < self.max_steps  # the last step is to be trusted
+            accuracy = min(max(expected**2, FINEST), _FIRST) if loose else FINEST
             found = minimised(problem, state.attraction, state.pressure, work, accuracy)
             if self.newton and rate > _SLOW and count > 3:
                 proposed = self._newton(problem, found, work)
