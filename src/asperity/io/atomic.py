@@ -181,7 +181,7 @@ def _keep(source: Path, target: Path) -> None:
         else:
             try:
                 os.link(entry, kept, follow_symlinks=False)
-            except OSError:  # a file system without hard links
+            except (OSError, NotImplementedError):  # a file system without hard links, or a system that follows all
                 shutil.copy2(entry, kept, follow_symlinks=False)
     shutil.copymode(source, target)
 
