@@ -9,7 +9,7 @@
 #   make lint         style and types; `make style`, `make layout` and `make types` one by one
 #   make fix          mends what ruff can mend
 #   make hooks        checks style and types before every commit (pre-commit)
-#   make package      wheel and source archive in dist/, installed in empty environments, where the demo runs
+#   make release-check  one version everywhere; archives in dist/, checked and installed with the newest and the lowest dependencies; the site and its links (LINKS=--external asks other sites too)
 #   make bench        every benchmark: tables and picture of benchmarks/README.md, ten minutes (BENCH="layered paths" some, BENCH=--full all sizes, hours)
 #   make validate     every page of validation/ anew, one process at a time, their summary, and pictures in PICTURES=validation-pictures
 #   make docs         the site in build/docs/html, without network; warnings are errors
@@ -29,7 +29,7 @@ BIN     := $(VENV)/bin
 USER_OK := $(VENV)/.installed
 DEV_OK  := $(VENV)/.installed-dev
 DOCS_OK := $(VENV)/.installed-docs
-SOURCES := $(wildcard src tests benchmarks examples validation docs)
+SOURCES := $(wildcard .ci src tests benchmarks examples validation docs)
 
 # One thread per test process: two processes on two cores must not become four threads.
 ONE_THREAD := ASPERITY_THREADS=1 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
@@ -38,7 +38,7 @@ PYTEST     := $(ONE_THREAD) $(BIN)/python -m pytest -n $(WORKERS) --dist workste
 SELECTION  := $(if $(filter true 1,$(CI)),,-m "not slow")
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-all test-lowest test-plain coverage lint style layout types fix hooks package bench validate docs docs-serve clean
+.PHONY: help demo test test-all test-lowest test-plain coverage lint style layout types fix hooks release-check bench validate docs docs-serve clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -82,18 +82,9 @@ fix: $(DEV_OK)
 hooks: $(DEV_OK)
 	$(BIN)/pre-commit install
 
-# No index of packages but the one that pip knows; nothing of this folder but the two archives.
-package: $(DEV_OK)
-	rm -rf dist
-	$(BIN)/python -m build --quiet
-	@set -e; for archive in dist/*.whl dist/*.tar.gz; do \
-	  room=$$(mktemp -d); \
-	  $(BIN)/python -m venv "$$room/venv"; \
-	  "$$room/venv/bin/python" -m pip install --quiet --disable-pip-version-check "$$archive"; \
-	  (cd "$$room" && venv/bin/asperity demo --out demo-run >/dev/null && test -s demo-run/report.html); \
-	  rm -rf "$$room"; \
-	  echo "$$archive installs in an empty environment and runs the demo"; \
-	done
+# No index of packages but the one that pip knows. The archives are left in dist/.
+release-check: $(DEV_OK) $(DOCS_OK)
+	$(BIN)/python .ci/release_check.py $(LINKS)
 
 bench: $(DEV_OK)
 	$(BIN)/python benchmarks/bench.py $(BENCH)

@@ -42,7 +42,7 @@ from typing import Any
 
 from .core.late import LateModule, LateNames, Shown, late_names, names_of_stub
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 
 _VIEWS = MappingProxyType(
     {
