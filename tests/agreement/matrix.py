@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from scipy.special import ndtri
 
 import asperity as asp
+from asperity.contact.solve import steps
 from asperity.physics.adhesion.stickiness import stickiness
 from asperity.theories import catalogue
 from asperity.theories.protocol import ContactAnswer, Prediction
@@ -159,11 +160,14 @@ def rough_and_attractive(share: float) -> float:
     unit = asp.ContactProblem(surface, body, adhesion=asp.adhesion.DugdaleAdhesion(1.0, 0.25, 1.0))
     law = asp.adhesion.DugdaleAdhesion(stickiness(unit).share_of_limit / share, 0.25, 1.0)
     deepest = 0.7 * float(surface.heights.max() - surface.heights.mean())
-    steps = [asp.FixedGrips(float(approach)) for approach in np.linspace(0.0, deepest, 8)]
-    found = asp.solve(asp.ContactProblem(surface, body, adhesion=law), asp.History(steps))
-    areas = [step.area_fraction for step in found.steps]
-    assert areas[-1] > 0.05
-    return float(np.interp(0.05, areas, found.external_force)) / surface.grid.area
+    loads = [asp.FixedGrips(float(approach)) for approach in np.linspace(0.0, deepest, 8)]
+    areas, forces = [], []
+    for step in steps(asp.ContactProblem(surface, body, adhesion=law), loads):
+        areas.append(step.area_fraction)
+        forces.append(step.external_force)
+        if step.area_fraction > 0.05:
+            return float(np.interp(0.05, areas, forces)) / surface.grid.area
+    raise AssertionError("the area stays below a twentieth")
 
 
 def stickiness_of_a_map(_: float) -> float:
