@@ -3,13 +3,17 @@ example."""
 
 from __future__ import annotations
 
+import importlib
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 from refusals import refused
+from study_cases import PROBLEM
 
 import asperity as asp
 from asperity.contact.answer import Answer
@@ -155,6 +159,37 @@ def test_it_goes_with_other_physics() -> None:
         problem("glue")  # type: ignore[arg-type]
     with refused(InputError, "couplings of the result", "glue"):
         asp.solve(problem(), LOADS[0]).require("glue")
+
+
+PAGE = Path(__file__).parents[2] / "docs/develop/own-physics.md"
+
+
+def test_the_physics_of_the_guide_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its pieces in one file, as the page says: law, closed form, limit, energies, door."""
+    code = "\n".join(re.findall(r"^```python\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL))
+    (tmp_path / "voltage.py").write_text(code, encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    guide = importlib.import_module("voltage")
+    films = guide.ChargedFilms(10.0, 5e-9)
+    found = guide.result.require("voltage")
+    assert np.abs(found.attraction - films.at(guide.result.gap)).max() <= 1e-6 * films.at(0.0)
+    flat = asp.Surface(np.zeros((8, 8)), 10e-9, periodic=True)
+    pressed = asp.solve(asp.ContactProblem(flat, SOLID, physics=[guide.Voltage(films)]), LOADS[0])
+    assert pressed.mean_pressure == pytest.approx(LOADS[0].value + films.at(0.0), rel=1e-12)
+    without, dry = (
+        asp.solve(one, LOADS[0]) for one in (problem(guide.Voltage(guide.ChargedFilms(1e-3, 5e-9))), problem())
+    )
+    assert np.abs(without.pressure - dry.pressure).max() <= 1e-6 * dry.pressure.max()
+    errors = []
+    for count in (4, 8, 16):
+        loads = map(asp.MeanPressure, np.linspace(5e6, 50e6, count + 1))
+        errors.append(asp.solve(guide.problem, asp.History(loads)).energies.relative_error)
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
+    assert errors[1] / errors[2] == pytest.approx(4.0, rel=0.1)
+    document = PROBLEM | {"electrostatic": {"volts": "10 V", "thickness": "5 nm"}}
+    outcome = asp.run(document, parts=[guide.VoltagePart])
+    assert outcome.converged
+    assert outcome.values["electric_force"] == outcome.result.require("voltage").electric_force > 0.0
 
 
 def test_it_does_not_roll_unless_it_says_so() -> None:
