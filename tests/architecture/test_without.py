@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterable, Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -221,6 +222,19 @@ def test_tests_that_do_not_concern_it_pass(physics: str, tmp_path: Path) -> None
     run_in(copy, "-m", "pytest", *quiet, "-m", "not slow", "-k", others, *chosen)
 
 
+@cache
+def test_files() -> tuple[tuple[Path, str], ...]:
+    """All files of tests and their texts."""
+    return tuple((path, path.read_text(encoding="utf-8")) for path in (ROOT.parents[1] / "tests").rglob("*.py"))
+
+
+@cache
+def imported(text: str) -> frozenset[str]:
+    """Names of modules, and of packages around them, after ``from`` or ``import`` in a ``text``."""
+    found = re.findall(r"\b(?:from|import) ((?:\w+\.)*\w+)", text)
+    return frozenset(name for path in found for name in path.split("."))
+
+
 def unconcerned(folders: frozenset[str]) -> Iterator[Path]:
     """Files of tests in ``FULL`` that neither import from the ``folders`` nor name what comes from
     them, nor have a helper that does."""
@@ -242,14 +256,9 @@ def unconcerned(folders: frozenset[str]) -> Iterator[Path]:
     served = (rf"{module.rpartition('.')[2]}\b" for module in modules_without(folders))
     named = (*(rf"physics\.{name}\b" for name in folders), *(rf"\b{name}\b" for name in gone))
     words = re.compile("|".join([*named, *asked, *served]))
-    tests = ROOT.parents[1] / "tests"
-    texts = {path: path.read_text(encoding="utf-8") for path in tests.rglob("*.py")}
-    bad = {path.stem for path, text in texts.items() if words.search(f"{path.stem}\n{text}")}
-    while more := {
-        path.stem
-        for path, text in texts.items()
-        if path.stem not in bad and any(re.search(rf"\b(from|import) (\w+\.)*{name}\b", text) for name in bad)
-    }:
+    bad = {path.stem for path, text in test_files() if words.search(f"{path.stem}\n{text}")}
+    while more := {path.stem for path, text in test_files() if path.stem not in bad and bad & imported(text)}:
         bad |= more
+    tests = ROOT.parents[1] / "tests"
     for place in FULL:
         yield from sorted(path for path in (tests.parent / place).rglob("test_*.py") if path.stem not in bad)
