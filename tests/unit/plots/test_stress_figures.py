@@ -14,7 +14,14 @@ from matplotlib.figure import Figure
 import asperity as asp
 import asperity.physics.stress.figures as stress_plots
 from asperity.core.units import show
-from asperity.physics.stress.figures import CLOSE_UP, close_up, line_figures, map_figure, plot_stress_section
+from asperity.physics.stress.figures import (
+    CLOSE_UP,
+    close_up,
+    line_figures,
+    map_figure,
+    plot_stress_section,
+    view_figure,
+)
 from asperity.physics.stress.survey import StressRequest, StressSurvey, WantedProfile, WantedSection, survey
 
 BODY = asp.Layered([asp.Layer(asp.Elastic(3e9, 0.25, name="film"), 1e-6)], asp.Elastic(1e9, 0.3, name="base"))
@@ -101,6 +108,21 @@ def test_maps_of_planes(long: StressSurvey) -> None:
     ]
     assert figures[2].caption.endswith("in base.")
     assert all(figure.picture.startswith(b"\x89PNG") for figure in figures)
+
+
+def test_the_view_in_space_is_of_the_plane_of_the_largest_stress(long: StressSurvey) -> None:
+    planes = list(long.planes(long.request.depths))
+    largest = [float(plane.von_mises.max()) for plane in planes]
+    figure = view_figure(planes)
+    assert figure is not None
+    assert (
+        figure.title == f"Von Mises stress in space at {('the surface', *['a depth of 1 µm'] * 2)[np.argmax(largest)]}"
+    )
+    assert figure.picture.startswith(b"\x89PNG")
+    deeper = view_figure(planes[1:])
+    assert deeper is not None
+    assert deeper.title.endswith("a depth of 1 µm")
+    assert view_figure([]) is None
 
 
 def test_maps_of_planes_show_their_maximum_enlarged(monkeypatch: pytest.MonkeyPatch) -> None:
