@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from asperity.core.citations import REFERENCES
+from asperity.theories import THEORIES
 
 ROOT = Path(__file__).parents[2]
 PAPER = (ROOT / "paper/paper.md").read_text(encoding="utf-8")
@@ -40,6 +41,11 @@ def test_numbers_of_benchmarks_and_validation_all_have_a_source():
     part = PAPER.split("# Benchmarks\n")[1].split("# Acknowledgements")[0]
     left = re.sub(r"\S+(?: s)?<!-- .+? -->", "", part, flags=re.DOTALL)
     assert set(re.findall(r"\d+\.\d+", left)) == {"0.01", "0.05", "0.2"}
+
+
+def test_the_catalogue_has_as_many_theories() -> None:
+    (count,) = re.findall(r"a catalogue of (\d+)\s+theories", PAPER)
+    assert int(count) == len(THEORIES)
 
 
 @pytest.mark.parametrize("page", ["README.md", "docs/start/features.md"])
