@@ -1,4 +1,5 @@
 from .bricks import brick_mesh, bricks
+from .compression import CylinderCompression, compressed_cylinder
 from .contact import ContactSurface, Equilibrium, Pressed, Target
 from .elements import Elements, axisymmetric, mean_dilatation, plane_strain
 from .far_field import exterior
@@ -23,6 +24,7 @@ from .solid import Response, Solid
 __all__ = [
     "Cone",
     "ContactSurface",
+    "CylinderCompression",
     "Depth",
     "Elements",
     "Equilibrium",
@@ -52,6 +54,7 @@ __all__ = [
     "axisymmetric",
     "brick_mesh",
     "bricks",
+    "compressed_cylinder",
     "cylinder_track",
     "exterior",
     "hertz_pass",
