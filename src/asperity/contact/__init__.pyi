@@ -1,6 +1,7 @@
 from ..core.status import Advice
 from ..parts.advice import advise, review
 from .boundary import Boundary, Free, FreeLine, Periodic
+from .conforming import ConformingContact, cylinder_in_bore, sphere_in_socket
 from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .full import FullContactField, full_contact
 from .history import EnergyBalance, History, HistoryResult, ramps
@@ -14,6 +15,7 @@ __all__ = [
     "Advice",
     "Approach",
     "Boundary",
+    "ConformingContact",
     "ContactProblem",
     "ContactResult",
     "Control",
@@ -37,11 +39,13 @@ __all__ = [
     "Unloaded",
     "advise",
     "complementary_energy",
+    "cylinder_in_bore",
     "full_contact",
     "interference",
     "line_problem",
     "ramps",
     "review",
     "solve",
+    "sphere_in_socket",
     "steps",
 ]
