@@ -1,4 +1,5 @@
 from .bricks import brick_mesh, bricks
+from .compliance import CompliantBlock, CompliantInterface, compliant_block
 from .compression import CylinderCompression, compressed_cylinder
 from .contact import ContactSurface, Equilibrium, Pressed, Target
 from .elements import Elements, axisymmetric, mean_dilatation, plane_strain
@@ -22,6 +23,8 @@ from .passes import PassHistory, PassState, Track, cylinder_track, sphere_track
 from .solid import Response, Solid
 
 __all__ = [
+    "CompliantBlock",
+    "CompliantInterface",
     "Cone",
     "ContactSurface",
     "CylinderCompression",
@@ -54,6 +57,7 @@ __all__ = [
     "axisymmetric",
     "brick_mesh",
     "bricks",
+    "compliant_block",
     "compressed_cylinder",
     "cylinder_track",
     "exterior",
