@@ -51,7 +51,14 @@ def test_a_soft_interface_bears_the_push_and_a_hard_one_the_block() -> None:
 
 @pytest.mark.parametrize(
     ("size", "stiffness", "friction"),
-    [((2.0, 1.0), 1.0, 3.91), ((2.0, 1.0), 10.0, 2.041), ((1.0, 1.0), 10.0, 2.191), ((1.0, 2.0), 1.0, 3.29)],
+    [
+        ((2.0, 1.0), 0.1, 22.6),
+        ((2.0, 1.0), 1e3, 1.83),
+        ((2.0, 1.0), 1.0, 3.91),
+        ((2.0, 1.0), 10.0, 2.041),
+        ((1.0, 1.0), 10.0, 2.191),
+        ((1.0, 2.0), 1.0, 3.29),
+    ],
 )
 def test_the_friction_at_which_the_tangent_is_singular(
     size: tuple[float, float], stiffness: float, friction: float

@@ -1,6 +1,7 @@
 from ..core.status import Advice
 from ..parts.advice import advise, review
 from .boundary import Boundary, Free, FreeLine, Periodic
+from .compliant import CompliantContact, compliant_contact
 from .conforming import ConformingContact, cylinder_in_bore, sphere_in_socket
 from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .full import FullContactField, full_contact
@@ -15,6 +16,7 @@ __all__ = [
     "Advice",
     "Approach",
     "Boundary",
+    "CompliantContact",
     "ConformingContact",
     "ContactProblem",
     "ContactResult",
@@ -39,6 +41,7 @@ __all__ = [
     "Unloaded",
     "advise",
     "complementary_energy",
+    "compliant_contact",
     "cylinder_in_bore",
     "full_contact",
     "interference",

@@ -1,5 +1,6 @@
+from ..solids.compliant_interface import CompliantInterface
 from .bricks import brick_mesh, bricks
-from .compliance import CompliantBlock, CompliantInterface, compliant_block
+from .compliance import CompliantBlock, compliant_block
 from .compression import CylinderCompression, compressed_cylinder
 from .contact import ContactSurface, Equilibrium, Pressed, Target
 from .elements import Elements, axisymmetric, mean_dilatation, plane_strain

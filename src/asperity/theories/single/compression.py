@@ -22,8 +22,8 @@ class CompressedCylinder(Theory):
 
         δ = 2 P/(π E*) (2 ln(4 R/a) - 1),  a² = 4 P R/(π E*),  1/k = 2/(π E*) (2 ln(4 R/a) - 2).
 
-    What lies beyond is 2 (1 - 2ν) P a/(3 π G R) and less. Between elastic flats a follows from the modulus of
-    both, and δ, without the flats' own share, from that of the cylinder.
+    What lies beyond is 2 (1 - 2ν) P a/(3 π G R) and less. Between elastic flats a follows from
+    the modulus of both, and δ, without the flats' own share, from that of the cylinder.
 
     Examples
     --------
