@@ -77,6 +77,17 @@ def compliant_contact(problem: ContactProblem, interface: CompliantInterface, ap
         If the approach is not positive.
     ConvergenceError
         If Newton's method does not settle.
+
+    Examples
+    --------
+    >>> import asperity as asp
+    >>> grid = asp.Grid((64, 64), (1e-7, 1e-7))
+    >>> wave = asp.generate.sinusoid(grid, amplitude=10e-9, wavelength=6.4e-6)
+    >>> problem = asp.ContactProblem(wave, asp.Elastic(91e9, 0.3))
+    >>> joint = asp.fem.CompliantInterface(stiffness=1e25, exponent=2.0)
+    >>> found = compliant_contact(problem, joint, approach=5e-9)
+    >>> f"{found.pressure.mean() / 1e6:.0f} MPa over {found.area / grid.area:.0%}"
+    '23 MPa over 33%'
     """
     require.positive(approach, "approach of the interface (m)")
     operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
