@@ -85,6 +85,7 @@ EXAMPLES = {
         "radius_2y": 4e-6,
         "angle": 0.5,
     },
+    "compressed-cylinder": BALL,
     "power-law-indenter": {"E_star": 1e11, "coefficient": 0.5e6, "exponent": 2.0},
     "cone": {"E_star": 1e11, "slope": 0.1},
     "flat-punch": BALL,

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from agreement.conductance import CONDUCTANCE
+from agreement.conforming import CONFORMING
 from agreement.fields_and_films import FIELDS_AND_FILMS
 from agreement.heating import HEATING
 from agreement.matrix import MATRIX as ROUGH_SURFACES
@@ -19,7 +20,17 @@ from reference_data import every_row
 
 from asperity.theories.catalogue import THEORIES
 
-MATRIX = (*ROUGH_SURFACES, *SUMMITS, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE, *HEATING, *SEALING, *WEAR)
+MATRIX = (
+    *ROUGH_SURFACES,
+    *SUMMITS,
+    *SINGLE_CONTACTS,
+    *CONFORMING,
+    *FIELDS_AND_FILMS,
+    *CONDUCTANCE,
+    *HEATING,
+    *SEALING,
+    *WEAR,
+)
 PAGE = Path(__file__).parents[2] / "docs/reference/agreement.md"
 
 

@@ -26,6 +26,8 @@ LIMITS: dict[str, dict[str, str]] = {
         "StressPlanes.__init__": (
             "independent keyword-only choices of the user, and the stress that a result knows beside its tractions"
         ),
+        "compliant_block": "a body, its size, push and interface, and keyword-only choices, each with a default",
+        "cylinder_in_bore": "two bodies, three numbers of the fit, and keyword-only choices, each with a default",
         "predict": "independent keyword-only choices of the user, each with a default",
         "uncertainty": "independent keyword-only choices of the user, each with a default",
         "read": "independent keyword-only choices of the user, each with a default",

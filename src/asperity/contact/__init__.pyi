@@ -1,6 +1,8 @@
 from ..core.status import Advice
 from ..parts.advice import advise, review
 from .boundary import Boundary, Free, FreeLine, Periodic
+from .compliant import CompliantContact, compliant_contact
+from .conforming import ConformingContact, cylinder_in_bore, sphere_in_socket
 from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .full import FullContactField, full_contact
 from .history import EnergyBalance, History, HistoryResult, ramps
@@ -14,6 +16,8 @@ __all__ = [
     "Advice",
     "Approach",
     "Boundary",
+    "CompliantContact",
+    "ConformingContact",
     "ContactProblem",
     "ContactResult",
     "Control",
@@ -37,11 +41,14 @@ __all__ = [
     "Unloaded",
     "advise",
     "complementary_energy",
+    "compliant_contact",
+    "cylinder_in_bore",
     "full_contact",
     "interference",
     "line_problem",
     "ramps",
     "review",
     "solve",
+    "sphere_in_socket",
     "steps",
 ]

@@ -1,4 +1,7 @@
+from ..solids.compliant_interface import CompliantInterface
 from .bricks import brick_mesh, bricks
+from .compliance import CompliantBlock, compliant_block
+from .compression import CylinderCompression, compressed_cylinder
 from .contact import ContactSurface, Equilibrium, Pressed, Target
 from .elements import Elements, axisymmetric, mean_dilatation, plane_strain
 from .far_field import exterior
@@ -21,8 +24,11 @@ from .passes import PassHistory, PassState, Track, cylinder_track, sphere_track
 from .solid import Response, Solid
 
 __all__ = [
+    "CompliantBlock",
+    "CompliantInterface",
     "Cone",
     "ContactSurface",
+    "CylinderCompression",
     "Depth",
     "Elements",
     "Equilibrium",
@@ -52,6 +58,8 @@ __all__ = [
     "axisymmetric",
     "brick_mesh",
     "bricks",
+    "compliant_block",
+    "compressed_cylinder",
     "cylinder_track",
     "exterior",
     "hertz_pass",

@@ -43,3 +43,14 @@ def factorised(matrix: sparse.csc_array, *, symmetric: bool = True) -> Callable[
             f"The stiffness is singular ({error}). Hold the body, take smaller steps, or give a little hardening."
         ) from error
     return solve
+
+
+def held(matrix: sparse.csc_array, known: RealArray, prescribed: BoolArray) -> RealArray:
+    """Displacement (unknowns,) in m of an elastic body with the stiffness ``matrix`` whose
+    ``prescribed`` unknowns have the ``known`` values, and on which no other force acts.
+
+    ConvergenceError if it is not held.
+    """
+    start = np.where(prescribed, known, 0.0)
+    right = np.where(prescribed, 0.0, -(matrix @ start))
+    return np.asarray(start + factorised(without(matrix, prescribed))(right))

@@ -98,6 +98,7 @@ from .sealing.gaps import (
 )
 from .sealing.media import ArrayAnswer, CriticalJunction, EffectiveMedium, JunctionAnswer, ObstacleArray
 from .sealing.roughness import FittedFactors, GroovedGap, PatirCheng, WaveFactors
+from .single.compression import CompressedCylinder
 from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
 from .single.hertz import HertzBodies, HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
@@ -195,6 +196,7 @@ __all__ = [
     "CoatedLineSlip",
     "CoatedTwist",
     "CoatedTwistSlip",
+    "CompressedCylinder",
     "Cone",
     "ContactAnswer",
     "CreepForces",

@@ -53,6 +53,7 @@ from .rough.rubber_friction import PerssonFriction
 from .sealing.gaps import AnnularGap, ParabolicChannel, ParabolicThroat, ParallelGap, SaddleThroat, TaperedGap
 from .sealing.media import CriticalJunction, EffectiveMedium, ObstacleArray
 from .sealing.roughness import GroovedGap, PatirCheng
+from .single.compression import CompressedCylinder
 from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
 from .single.hertz import HertzBodies, HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
@@ -115,6 +116,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             HertzLine,
             HertzEllipse,
             HertzBodies,
+            CompressedCylinder,
             PowerLawIndenter,
             Cone,
             FlatPunch,
