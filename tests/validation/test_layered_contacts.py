@@ -58,5 +58,5 @@ def test_stresses_agree_and_the_page_belongs_to_the_script(name):
     are not asked of it."""
     page = STRESSES[name]()
     assert_claims_hold(replace(page, claims=tuple(one for one in page.claims if not one.text.startswith("numbers of"))))
-    assert [one.what for one in page.published if not one.agrees and not one.what.endswith("0.5")] == []
+    assert [one.what for one in page.published if not one.kept and not one.what.endswith("0.5")] == []
     assert_written_by_script(page, name)
