@@ -31,11 +31,10 @@ HARDENS = "of the solid that hardens, as theirs; {other} of the perfectly plasti
 
 ONE_SOLID = """**One solid for all three numbers.** Load, radius and mean pressure are one: W/W_y = (p_m/p_m,y)
 (a/a_y)², with p_m,y = 1.075 Y. At 300 times first yield a radius of ten times that at first yield asks for a mean
-pressure of 3.2 Y, and 2.5 Y for a radius of 11.4 times: the three numbers of the text, 300, 2.5 Y and "about 10",
-are of no one solid within 10 %. The solid of the figure hardens (n = 0.3), so its numbers are all compared with
-that: the radius is within 7 %, the pressure, over the initial yield stress, is half as large again as theirs. All
-three numbers of the perfectly plastic solid are nearer, within 7 to 11 %; 2.5 Y is nearer to a solid that
-does not harden."""
+pressure of 3.2 Y, and 2.5 Y for a radius of 11.4 times: "about 300", "about 2.5 Y" and "about 10" of the text do
+not hold for one solid to their digits. The solid of the figure hardens (n = 0.3), so all its numbers are compared
+with that: the radius is within 7 %, and the pressure, over the initial yield stress, half as large again as theirs.
+The perfectly plastic solid shares the difference: radius 10 %, pressure 7 % and depth 11 % above theirs."""
 
 LOADS = (15.5, 100.6, 200.0, 300.0)
 """W/W_y of Bhushan (1998), fig. 10."""

@@ -58,7 +58,8 @@ output is not part of the repository.
 
 To add a page: a script with a function `compare` that returns a `Comparison` of numbers (see
 `side_by_side.py`) or a `Page` of tables and claims (see `page.py`), its page, and a test; the first sentence
-of its docstring stands here.
+of its docstring stands here. Its published numbers are `Published`, with the source (`after` the work that they
+come from), what they rest on where something was chosen or put in, and what they share with others.
 """
 
 
