@@ -31,7 +31,7 @@ WATER_ANGLE = math.radians(60.0)
 
 @dataclass(frozen=True)
 class Found:
-    """Meniscus force over load in the first pass and when it is steady (infinite where it runs
+    """Meniscus force over load without feedback and when it is steady (infinite where it runs
     away), real area of contact over nominal area under load and menisci, and the force over load of
     the theory of summits."""
 
@@ -64,6 +64,11 @@ class Interface:
         self._operator = asp.solvers.prepare_operator(self.problem.compliance, self.problem.grid, self.problem.boundary)
         self._dry: dict[float, asp.ContactResult] = {}
 
+    def unfed(self, liquid: asp.LiquidFilm, load: float = LOAD) -> asp.ContactResult:
+        """Contact under the ``load`` in Pa alone, with the menisci of ``liquid`` in its gap."""
+        alone = replace(self.problem, film=replace(liquid, feedback=False))
+        return asp.solve(alone, asp.MeanPressure(load), operator=self._operator, keep=asp.Keep(stiffness=False))
+
     def menisci(self, liquid: asp.LiquidFilm, load: float = LOAD, *, theory: bool = False) -> Found:
         """Menisci of ``liquid`` under the ``load`` in Pa; the theory of summits only if asked
         for."""
@@ -73,7 +78,7 @@ class Interface:
             self._dry[load] = asp.solve(self.problem, control, operator=self._operator, keep=keep)
         wet = replace(self.problem, film=liquid)
         options = {"state": self._dry[load].state, "operator": self._operator}
-        once = asp.solve(wet, control, rounds=asp.solvers.Rounds(most=1), on_failure="return", **options)
+        once = self.unfed(liquid, load)
         first = once.menisci.relative_meniscus_force
         beside = asp.menisci.wet_theory(once).meniscus_force / once.external_force if theory else math.nan
         try:

@@ -170,7 +170,12 @@ def _published(onsets: dict[float, YieldOnset]) -> tuple[Published, ...]:
         Published(f"{review}, fig. 8", "p₀/k at first yield, µ = 0", "2.8", onsets[0.0].peak_over_k),
         Published(f"{review}, eq. 5a", "pₘ/Y at first yield, µ = 0", "1.07", 2.0 / 3.0 * onsets[0.0].peak_over_Y),
         Published(f"{review}, text", "µ beyond which yield begins on the surface, about", "0.3", surface_yield_from()),
-        Published(f"{review}, fig. 23", "largest √J₂/p₀ of the smooth sphere, µ = 0.25", "0.37", onsets[0.25].root_J2),
+        Published(
+            f"{review}, fig. 23, after Lee & Ren 1994",
+            "largest √J₂/p₀ of the smooth sphere, µ = 0.25",
+            "0.37",
+            onsets[0.25].root_J2,
+        ),
         *_plastic(2.0 / 3.0 * onsets[0.0].peak_over_Y),
     )
 
@@ -187,14 +192,26 @@ def _plastic(onset: float) -> Iterator[Published]:
     yield Published(
         f"{review}, eq. 5c", "pₘ/H at first yield, 1/3", "0.3333", onset / TABOR, reason=f"1.07 Y over {TABOR:g} Y"
     )
-    yield Published(f"{review}, eq. 5b", "pₘ/Y at full plasticity (Tabor)", "2.8", float(mean.max()), reason=fits)
-    kral = f"{review}, sec. 2.3"
+    yield Published(
+        f"{review}, eq. 5b, after Tabor 1951", "pₘ/Y at full plasticity", "2.8", float(mean.max()), reason=fits
+    )
+    kral = f"{review}, sec. 2.3, after Kral, Komvopoulos & Bogy 1993"
     hardening = f"{fits}, without the strain hardening of theirs"
     yield Published(
-        kral, "pₘ/Y at 300 times the load of first yield, E/Y = 685", "2.5", float(mean[there]), reason=hardening
+        kral,
+        "pₘ/Y at 300 times the load of first yield, E/Y = 685",
+        "2.5",
+        float(mean[there]),
+        reason=hardening,
+        shared="p_m of fig. 10",
     )
     yield Published(
-        kral, "contact radius there over that at first yield, about", "10", math.sqrt(area[there]), reason=hardening
+        kral,
+        "contact radius there over that at first yield, about",
+        "10",
+        math.sqrt(area[there]),
+        reason=hardening,
+        shared="radius of fig. 10",
     )
 
 

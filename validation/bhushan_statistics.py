@@ -170,19 +170,19 @@ def _exact_at(curves: dict[str, np.ndarray], law: Law) -> float:
 
 def _published(curves: dict[str, np.ndarray], fits: dict[str, tuple[float, float]]) -> tuple[Published, ...]:
     """Printed coefficients beside those of our fits; the interval of the fits is chosen freely."""
-    source, free = "Bhushan 1998, table 1", "fitted on an interval of ours"
+    source, free = "Bhushan 1998, table 1", "interval of the fit"
     inside = (FITTED[0] <= curves["P"]) & (FITTED[1] >= curves["P"])
     P, D = curves["P"][inside], curves["D"][inside]
     power, logarithm = np.polyfit(np.log(np.log10(0.57 / P)), np.log(D), 1)
     laws = [
-        Published(source, f"{what} of {law.name}", f"{theirs:.2f}", ours, 0.2, reason=free)
+        Published(source, f"{what} of {law.name}", f"{theirs:.2f}", ours, 0.2, rests_on=free)
         for law in LAWS
         for what, theirs, ours in zip(("factor", "power"), (law.factor, law.power), fits[law.name], strict=True)
     ]
     return (
         *laws,
-        Published(source, "factor of the separation D", "1.40", math.exp(logarithm), 0.2, reason=free),
-        Published(source, "power of the separation D", "0.65", float(power), 0.2, reason=free),
+        Published(source, "factor of the separation D", "1.40", math.exp(logarithm), 0.2, rests_on=free),
+        Published(source, "power of the separation D", "0.65", float(power), 0.2, rests_on=free),
         Published(source, "Pₐ at D = 0", "0.57", float(curves["P"][0])),
         Published(source, "n/(η Aₐ) at D = 0", "0.5", float(curves[LAWS[2].name][0])),
         *_approximations(curves),
@@ -198,7 +198,9 @@ def _approximations(curves: dict[str, np.ndarray]) -> Iterator[Published]:
         P = (law.linear / law.factor) ** (1.0 / (law.power - law.order))
         ours = _at(curves, law.name, P) / P**law.order
         what = f"approximation of {law.name}, where it meets its fit (Pₐ = {P:.1e})"
-        yield Published("Bhushan 1998, table 1", what, f"{law.linear:.2f}", ours, 0.05)
+        yield Published(
+            "Bhushan 1998, table 1", what, f"{law.linear:.2f}", ours, 0.05, rests_on="load at which it is read"
+        )
 
 
 def _exponential(D: float = 1.5) -> Iterator[Published]:
@@ -230,6 +232,7 @@ def _plastic() -> Iterator[Published]:
         "0.45",
         lightest,
         reason=reason,
+        rests_on="five σ as trivial load",
     )
 
 

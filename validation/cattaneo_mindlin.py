@@ -45,7 +45,12 @@ def page(grids: tuple[int, ...] = GRIDS, points: int = 80) -> Page:
     ]
     numbers += [
         Published(
-            "Mindlin & Deresiewicz 1953", f"loop W/μPδ at Q₀ = {s:g} μP", f"{printed_loop(s):.4f}", loops[s], 0.03
+            "Mindlin & Deresiewicz 1953",
+            f"loop W/μPδ at Q₀ = {s:g} μP",
+            f"{printed_loop(s):.4f}",
+            loops[s],
+            0.03,
+            shared=f"loop at {s:g} μP",
         )
         for s in AMPLITUDES
     ]

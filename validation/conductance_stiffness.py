@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from page import Claim, Page, Stated, Table, statements, write_page
+from page import Claim, Page, Published, Stated, Table, statements, write_page
 
 import asperity as asp
 from asperity.solids import Conduction
@@ -135,6 +135,16 @@ def page(points: int = 512, surfaces: int = 4) -> Page:
             Claim("least exponent of the load", float(exponents.min()), low=0.9),
             Claim("largest exponent of the load", float(exponents.max()), high=1.1),
             Claim("conductance over stiffness, largest departure from one", apart, high=0.01),
+        ),
+        published=(
+            Published(
+                "Akarapu, Sharp & Robbins 2011",
+                "power of the load in the conductance, mean of all cases",
+                "1",
+                float(exponents.mean()),
+                within=0.1,
+            ),
+            Published("Barber 2003", "h/k_s over k/E*, the farthest of all cases and loads", "1", 1.0 + apart),
         ),
     )
 

@@ -62,7 +62,7 @@ def page(points: int = 200) -> Page:
         (Table(f"Area fraction, {points} × {points} points:", head, tuple(rows)), WORDS),
         (
             Claim("largest difference of curve and solver", max(off), high=2.0 * AREA_ERROR),
-            Claim("numbers of the printed limits that agree", sum(one.agrees for one in numbers), 5, 5),
+            Claim("numbers of the printed limits that agree", sum(one.kept for one in numbers), 5, 5),
         ),
         tuple(numbers),
     )

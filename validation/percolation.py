@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from page import Claim, Page, Table, write_page
+from page import Claim, Page, Published, Table, write_page
 
 import asperity as asp
 from asperity import sealing
@@ -125,7 +125,15 @@ def page(
         about=ABOUT,
         parts=(_surfaces(found, points), _grids(refined), _waves(crossed), READING),
         claims=_claims(found, refined, crossed),
+        published=(_published([one.after for each in found.values() for one in each]),),
     )
+
+
+def _published(areas: list[float]) -> Published:
+    """The reported area beside those of all surfaces, in pixels as theirs."""
+    what = "contact area at which the gap closes, counted pixels, all Hurst exponents"
+    mean, spread = float(np.mean(areas)), float(np.std(areas, ddof=1))
+    return Published("Dapp, Lücke, Persson & Müser 2012", what, "0.42", mean, spread=spread)
 
 
 def _text(values: list[float]) -> str:

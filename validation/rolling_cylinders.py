@@ -45,6 +45,7 @@ def page(grids: tuple[int, ...] = GRIDS, points: int = 64) -> Page:
             f"{1.0 - np.sqrt(1.0 - s):.4f}",
             creepage_at(s, finest),
             0.01,
+            shared="creepage at 0.5 μP" if s == 0.5 else "",
         )
         for s in SHARES
     ]

@@ -1,9 +1,10 @@
-"""Writes README.md of this folder: the pages, and all published numbers in them beside ours with
-deviation and verdict.
+"""Writes README.md of this folder: the pages, the sources, and all published numbers beside ours
+with deviation and verdict.
 
-The numbers are those of the tables of the pages: a column called "theirs" and the column of ours
-beside it. Where a page has none, those of its claims that a published number lies within two
-standard deviations of ours. Pages whose reference is an independent solution of our own say so and
+The numbers are those of the table of published numbers of each page, else those of its columns
+called "theirs" with the column of ours beside. Numbers that share a surface or a statement count
+once, with the worst of their verdicts; numbers that rest on a value chosen or put in here are no
+test and are counted apart. Pages whose reference is an independent solution of our own say so and
 are not read.
 """
 
@@ -15,19 +16,20 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from page import PUBLISHED_TITLE
+from page import AGREES, APART, BETWEEN, DIFFERS, NEAR, PUBLISHED_HEAD, PUBLISHED_TITLE, SCATTER, verdict_of
 
 FOLDER = Path(__file__).parent
-UNCOUNTED = {
-    "bhushan_film": "the load was chosen freely",
-    "peng_load": "rows of table 3.1 again",
+TABLES = {
+    "peng_load": ("Peng 2001, table 3.1", "table 3.1, one surface"),
+    "peng_table_3_1": ("Peng 2001, table 3.1", "table 3.1, one surface"),
 }
-"""Pages whose numbers are listed but not counted, and why."""
+"""Source and what their numbers share, of pages whose tables say neither."""
 
-NEAR, APART = 0.05, 0.2
-"""Deviations up to which numbers without a stated scatter agree, and from which they differ."""
+REPEATED = ("peng_load",)
+"""Pages whose numbers stand on another page, too."""
 
-SCATTER = "within two standard deviations of ours"
+ORDER = (AGREES, SCATTER, BETWEEN, DIFFERS)
+"""Verdicts from the best to the worst."""
 
 HEAD = """# Comparison with published results
 
@@ -36,7 +38,7 @@ writes a page of the same name:
 
 ```sh
 python validation/sphere_on_layer.py     # writes validation/sphere_on_layer.md
-make validate                            # all pages (half an hour of one core), this page, pictures
+make validate                            # all pages (an hour of one core), this page, pictures
 ```
 
 Each page states what was computed, the source of the published values ("theirs"), whether a parameter was
@@ -56,61 +58,114 @@ output is not part of the repository.
 
 To add a page: a script with a function `compare` that returns a `Comparison` of numbers (see
 `side_by_side.py`) or a `Page` of tables and claims (see `page.py`), its page, and a test; the first sentence
-of its docstring stands here.
+of its docstring stands here. Its published numbers are `Published`, with the source (`after` the work that they
+come from), what they rest on where something was chosen or put in, and what they share with others.
 """
 
 
 @dataclass(frozen=True)
 class Number:
-    """A published number beside ours, as the page shows both."""
+    """A published number beside ours, as the page shows both; ``verdict`` and ``deviation`` are
+    those of the page where it has them."""
 
     page: str
+    source: str
     case: str
     theirs: str
     ours: str
+    said: str = ""
+    apart: str = ""
+    rests_on: str = ""
+    shared: str = ""
 
     @property
-    def deviation(self) -> float:
-        """Ours over theirs, less one; the difference where theirs is zero."""
+    def deviation(self) -> str:
+        """Ours over theirs, less one, in per cent; the difference where theirs is zero."""
         theirs, ours = _first(self.theirs), _first(self.ours)
-        return ours / theirs - 1.0 if theirs else ours
+        return self.apart or f"{100.0 * (ours / theirs - 1.0 if theirs else ours):+.1f} %"
 
     @property
     def verdict(self) -> str:
         """In words; a scatter that the page states goes first."""
-        theirs, ours = _first(self.theirs), _first(self.ours)
         scatter = re.search(r"± *([-+.\de]+)", self.ours)
-        if scatter and abs(ours - theirs) <= 2.0 * float(scatter[1]):
-            return "within the scatter of one surface"
-        if abs(self.deviation) <= NEAR or abs(ours - theirs) <= _half_a_digit(self.theirs):
-            return "agrees"
-        return "near" if abs(self.deviation) <= APART else "differs"
+        return self.said or verdict_of(
+            _digits(self.theirs), _first(self.ours), float(scatter[1]) if scatter is not None else 0.0
+        )
 
     @property
     def agrees(self) -> bool:
         """Whether within the scatter, the rounding or 5 %."""
-        return self.verdict not in ("near", "differs")
+        return self.verdict in (SCATTER, AGREES)
+
+    @property
+    def work(self) -> str:
+        """The work that it comes from: after "after" at the end of the source, else up to its first
+        comma."""
+        return self.source.rpartition(", after ")[2] if ", after " in self.source else self.source.partition(",")[0]
+
+
+@dataclass(frozen=True)
+class Tally:
+    """Numbers that count once each, ``rest`` of which rest on values chosen or put in here; the
+    others by verdict."""
+
+    counted: int
+    agree: int
+    near: int
+    differ: int
+    rest: int
+
+    @classmethod
+    def of(cls, numbers: Iterable[Number]) -> Tally:
+        """Of ``numbers``, those that share something as one with the worst verdict."""
+        groups: dict[object, list[Number]] = {}
+        for place, number in enumerate(numbers):
+            groups.setdefault(number.shared or place, []).append(number)
+        tested = [found for found in ([one for one in of if not one.rests_on] for of in groups.values()) if found]
+        worst = [max((one.verdict for one in found), key=ORDER.index) for found in tested]
+        near, differ = worst.count(BETWEEN), worst.count(DIFFERS)
+        return cls(len(groups), len(worst) - near - differ, near, differ, len(groups) - len(tested))
+
+    @property
+    def whole(self) -> bool:
+        """Whether something was tested and all of it agrees."""
+        return self.agree > 0 and self.near == self.differ == 0
+
+
+def _digits(text: str) -> str:
+    """First number of a text, as it is written."""
+    found = re.search(r"[-+]?\d*\.?\d+(?:e[-+]?\d+)?", text.replace("−", "-"))
+    assert found is not None, text
+    return found[0]
 
 
 def _first(text: str) -> float:
     """First number of a text."""
-    found = re.search(r"[-+]?\d*\.?\d+(?:e[-+]?\d+)?", text.replace("−", "-"))
-    assert found is not None, text
-    return float(found[0])
-
-
-def _half_a_digit(text: str) -> float:
-    """Half a unit of the last digit shown."""
-    digits = re.search(r"\d*\.(\d+)", text)
-    return 0.0 if "e" in text else 0.5001 * 10.0 ** -(len(digits[1]) if digits else 0)
+    return float(_digits(text))
 
 
 def numbers(name: str, text: str) -> list[Number]:
     """The published numbers of the page ``name``."""
     _, given, rest = text.partition(PUBLISHED_TITLE)
-    text = rest.partition("\n## ")[0] if given else text
-    tables = [number for head, rows in _tables(text) for number in _pairs(name, head, rows)]
-    return tables or list(_scatters(name, text))
+    if given:
+        return [number for head, rows in _tables(rest.partition("\n## ")[0]) for number in _published(name, head, rows)]
+    return [number for head, rows in _tables(text) for number in _pairs(name, head, rows)]
+
+
+def _published(name: str, head: list[str], rows: Iterable[list[str]]) -> Iterator[Number]:
+    """Rows of a table of published numbers."""
+    if tuple(head[: len(PUBLISHED_HEAD)]) != PUBLISHED_HEAD:
+        return
+    for row in rows:
+        cells = dict(zip(head, row, strict=True))
+        yield Number(
+            name,
+            *(cells[key] for key in ("source", "number", "theirs", "ours")),
+            said=next(word for word in ORDER if cells["verdict"].startswith(word)),
+            apart=cells["deviation"],
+            rests_on=cells.get("rests on", ""),
+            shared=cells.get("counts once with", ""),
+        )
 
 
 def _tables(text: str) -> Iterator[tuple[list[str], list[list[str]]]]:
@@ -137,7 +192,9 @@ def _pairs(name: str, head: list[str], rows: Iterable[list[str]]) -> Iterator[Nu
             what = next((head[column] for column in (at, beside) if ":" in head[column]), "")
             what = re.sub(r"[:,]? *\(?(ours|theirs)\b.*", "", what)
             labels = [f"{key} = {cell}" if key else cell for key, cell in zip(head[:first], row[:first], strict=True)]
-            yield Number(name, ", ".join(part for part in (*labels, what) if part), row[at], row[beside])
+            case = ", ".join(part for part in (*labels, what) if part)
+            source, shared = TABLES.get(name, (name, ""))
+            yield Number(name, source, case, row[at], row[beside], shared=shared)
 
 
 def _beside(head: list[str], at: int) -> int | None:
@@ -146,16 +203,6 @@ def _beside(head: list[str], at: int) -> int | None:
     ours = [word.endswith("ours") for word in head]
     order = (at + 1, at - 1) if ": theirs" in head[at] else (at - 1, at + 1)
     return next((column for column in order if 0 <= column < len(head) and ours[column]), None)
-
-
-def _scatters(name: str, text: str) -> Iterator[Number]:
-    """Claims that a published number lies within two standard deviations of ours."""
-    for head, rows in _tables(text):
-        for row in rows:
-            if head[0] == "claim" and SCATTER in row[0]:
-                low, high = (float(part) for part in row[2].split(" to "))
-                ours = f"{0.5 * (low + high):.3g} ± {0.25 * (high - low):.2g}"
-                yield Number(name, row[0].replace(f", {SCATTER}", ""), f"{float(row[1]):g}", ours)
 
 
 def about(name: str) -> str:
@@ -168,37 +215,65 @@ def readme() -> str:
     """The page of all pages."""
     names = sorted(path.stem for path in FOLDER.glob("*.md") if path.stem != "README")
     found = {name: numbers(name, (FOLDER / f"{name}.md").read_text(encoding="utf-8")) for name in names}
-    counted = [number for name in names if name not in UNCOUNTED for number in found[name]]
-    agree = sum(number.agrees for number in counted)
-    near = sum(number.verdict == "near" for number in counted)
-    lines = [
-        HEAD,
-        f"**{len(counted)} published numbers**: {agree} agree (within the scatter of one surface that the page "
-        f"states, the last printed digit, or {100 * NEAR:.0f} %), {near} are within {100 * APART:.0f} %, "
-        f"{len(counted) - agree - near} differ more, for reasons that their pages give. Numbers of one page "
-        "may come from one surface of theirs, as all of table 3.1 do, and are then no independent checks.",
-        "",
-        "| page | problem | numbers | agree |",
-        "|---|---|---|---|",
-    ]
+    every = [number for name in names for number in found[name]]
+    lines = [HEAD, *_counted(every), "", "| page | problem | numbers | counted | agree |", "|---|---|---|---|---|"]
     for name in names:
-        of = found[name]
-        count = f"({len(of)}: {UNCOUNTED[name]})" if name in UNCOUNTED else f"{len(of) or '–'}"
-        agreeing = f"{sum(number.agrees for number in of)}" if of else "–"
-        lines.append(f"| [{name}]({name}.md) | {about(name)} | {count} | {agreeing} |")
-    lines += [
-        "",
-        TAIL,
-        "## All numbers",
-        "",
-        "| page | number | theirs | ours | deviation | verdict |",
-        "|---|---|---|---|---|---|",
-    ]
-    for name in names:
-        for number in found[name]:
-            row = (number.case, number.theirs, number.ours, f"{100.0 * number.deviation:+.1f} %", number.verdict)
-            lines.append(f"| [{name}]({name}.md) | " + " | ".join(row) + " |")
+        tally = Tally.of(found[name])
+        counts = (len(found[name]), tally.counted, tally.agree) if found[name] else ("–",) * 3
+        lines.append(f"| [{name}]({name}.md) | {about(name)} | " + " | ".join(map(str, counts)) + " |")
+    lines += ["", TAIL, *_sources(every), ""]
+    head = ("page", "source", "number", "theirs", "ours", "deviation", "verdict", "rests on", "counts once with")
+    lines += ["## All numbers", "", "| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    for one in every:
+        row = (one.source, one.case, one.theirs, one.ours, one.deviation, one.verdict, one.rests_on, one.shared)
+        lines.append(f"| [{one.page}]({one.page}.md) | " + " | ".join(row) + " |")
     return "\n".join(lines) + "\n"
+
+
+def _by_work(every: Iterable[Number]) -> dict[str, list[Number]]:
+    """Numbers by the work that they come from."""
+    found: dict[str, list[Number]] = {}
+    for number in every:
+        found.setdefault(number.work, []).append(number)
+    return dict(sorted(found.items()))
+
+
+def _counted(every: list[Number]) -> list[str]:
+    """What all numbers say, in words."""
+    tally = Tally.of(every)
+    works = [Tally.of(of) for of in _by_work(every).values()]
+    tested = [one for one in works if one.counted > one.rest]
+    printed = sum(number.page not in REPEATED for number in every)
+    return [
+        f"**{len(tested)} independent sources**: of {sum(one.whole for one in tested)} every number agrees, of "
+        f"{sum(one.agree > 0 and not one.whole for one in tested)} some, of "
+        f"{sum(one.agree == 0 for one in tested)} none ([table](#sources)).",
+        "",
+        f"**{printed} published numbers, {tally.counted} where those of one surface or of one statement count "
+        f"once**. {tally.rest} of them rest on a value that was chosen or put in here and test nothing. Of the other "
+        f"{tally.counted - tally.rest}, {tally.agree} agree (within {100 * NEAR:.0f} %, the last printed digit, or "
+        f"two standard deviations from surface to surface), {tally.near} are near (within {100 * APART:.0f} %), and "
+        f"{tally.differ} differ more, for reasons that their pages give. Pages and this summary judge by the same "
+        "rule (`verdict_of` in `page.py`).",
+    ]
+
+
+def _sources(every: list[Number]) -> list[str]:
+    """The table of sources."""
+    head = ("source", "numbers", "counted", "agree", "near", "differ", "rest on a choice")
+    lines = [
+        "## Sources",
+        "",
+        "Works that the numbers come from; `agree`, `near` and `differ` count what rests on no choice.",
+        "",
+        "| " + " | ".join(head) + " |",
+        "|" + "---|" * len(head),
+    ]
+    for work, of in _by_work(every).items():
+        tally = Tally.of(of)
+        row = (work, len(of), tally.counted, tally.agree, tally.near, tally.differ, tally.rest)
+        lines.append("| " + " | ".join(map(str, row)) + " |")
+    return lines
 
 
 if __name__ == "__main__":

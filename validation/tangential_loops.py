@@ -40,13 +40,21 @@ def page() -> Page:
         rows.append((f"{s:g}", *(f"{value:.8f}" for value in (theirs, path, fields))))
         off += [abs(path / theirs - 1.0), abs(fields / theirs - 1.0)]
     numbers = [
-        Published("Mindlin & Deresiewicz 1953", f"loop W/μPδ at Q₀ = {s:g} μP", f"{loop(s):.5f}", _fields(s), 1e-6)
+        Published(
+            "Mindlin & Deresiewicz 1953",
+            f"loop W/μPδ at Q₀ = {s:g} μP",
+            f"{loop(s):.5f}",
+            _fields(s),
+            1e-6,
+            shared=f"loop at {s:g} μP",
+        )
         for s in AMPLITUDES[1:4]
     ]
     numbers.append(Published("Mindlin 1949", "tangential over normal stiffness, ν = 0.3", "0.8235", _stiffness(), 1e-6))
     numbers.append(Published("Lubkin 1951", "largest torque over μPa", "0.5890", _torque(), 1e-6))
     creepage, expected = _creepage(0.5), 1.0 - np.sqrt(0.5)
-    numbers.append(Published("Carter 1926", "creepage over μa/R at Q = μP/2", f"{expected:.4f}", creepage, 1e-6))
+    what, shared = "creepage over μa/R at Q = μP/2", "creepage at 0.5 μP"
+    numbers.append(Published("Carter 1926", what, f"{expected:.4f}", creepage, 1e-6, shared=shared))
     small = _path(AMPLITUDES[0]) / (4.0 / 27.0 * AMPLITUDES[0] ** 3)
     return Page(
         "Loops, torsion and rolling by their printed formulas",

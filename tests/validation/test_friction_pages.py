@@ -22,7 +22,7 @@ def test_what_is_claimed_holds(name, make):
     page = make()
     assert_claims_hold(page)
     assert_written_by_script(page, name)
-    assert all(number.agrees for number in page.published)
+    assert all(number.kept for number in page.published)
 
 
 @pytest.mark.slow

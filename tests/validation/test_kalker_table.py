@@ -36,4 +36,4 @@ def test_the_page_is_the_scripts(monkeypatch):
     )
     page = kalker_table.page()
     assert_written_by_script(page, "kalker_table")
-    assert len(page.published) == 24
+    assert len(page.published) == 68

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import cylinder_on_layer
 import influence_coefficient
+import layered_sphere_profiles
 import layered_sphere_stress
 import peng_patch_stress
 import pytest
@@ -58,5 +59,12 @@ def test_stresses_agree_and_the_page_belongs_to_the_script(name):
     are not asked of it."""
     page = STRESSES[name]()
     assert_claims_hold(replace(page, claims=tuple(one for one in page.claims if not one.text.startswith("numbers of"))))
-    assert [one.what for one in page.published if not one.agrees and not one.what.endswith("0.5")] == []
+    assert [one.what for one in page.published if not one.kept and not one.what.endswith("0.5")] == []
     assert_written_by_script(page, name)
+
+
+@pytest.mark.slow  # five contacts and their stresses, 40 s
+def test_profiles_of_pressure_and_stress_agree_and_the_page_belongs_to_the_script():
+    page = layered_sphere_profiles.compare(across=24)
+    assert_claims_hold(page)
+    assert_written_by_script(page, "layered_sphere_profiles")

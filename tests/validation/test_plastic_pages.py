@@ -1,6 +1,7 @@
 """The pages of plastic indentation and sliding, on coarser meshes: what they claim holds, and the
 pages are those of the scripts."""
 
+import elastic_plastic_sphere
 import layered_indentation
 import layered_sliding
 import layered_sliding_runs
@@ -14,6 +15,14 @@ def test_balls_on_plastic_solids():
     page = plastic_indentation.compare(across=10)
     assert_claims_hold(page)
     assert_written_by_script(page, "plastic_indentation")
+
+
+@pytest.mark.slow  # two paths on meshes of ten elements across, 10 s
+def test_a_ball_beyond_first_yield_and_printed_fits():
+    page = elastic_plastic_sphere.compare(across=10)
+    assert_claims_hold(page)
+    assert_written_by_script(page, "elastic_plastic_sphere")
+    assert len({one.source for one in page.published}) == 3
 
 
 @pytest.mark.slow  # three layered bodies at 100 times first yield, 25 s

@@ -13,6 +13,7 @@ import gold_film
 import interacting_crests
 import numpy as np
 import pytest
+import scan_instruments
 import scan_size
 import standard_surface
 from validation_pages import assert_claims_hold, assert_written_by_script, written_page
@@ -30,6 +31,7 @@ RUNS = {
     "interacting_crests": interacting_crests.page,
     "crossed_waves": lambda: crossed_waves.page(points=128),
     "scan_size": lambda: scan_size.page(count=8, sides=(4e-6, 64e-6)),
+    "scan_instruments": lambda: scan_instruments.compare(count=8),
 }
 
 
@@ -53,7 +55,7 @@ def test_waves_of_one_length_have_the_least_nayak_parameter():
 def test_the_written_figure_10_is_the_scripts():
     written = written_page("figure_10")
     for text in (figure_10.ABOUT, *figure_10.READING):
-        assert text in written
+        assert text.format(all=12, close=1) in written
     for load in figure_10.LOADS:
         assert f"p = {load:g} E* h'" in written
     rows = [

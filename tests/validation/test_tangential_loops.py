@@ -10,7 +10,7 @@ def test_what_is_claimed_holds():
     page = tangential_loops.page()
     assert_claims_hold(page)
     assert_written_by_script(page, "tangential_loops")
-    assert all(number.agrees for number in page.published)
+    assert all(number.kept for number in page.published)
 
 
 def test_the_printed_loop_at_gross_sliding_is_a_rectangle_less_its_corners():

@@ -10,7 +10,7 @@ def test_wear_by_dissipated_energy() -> None:
     page = wear_energy.page()
     assert_claims_hold(page)
     assert_written_by_script(page, "wear_energy")
-    assert [one.what for one in page.published if not one.agrees] == []
+    assert [one.what for one in page.published if not one.kept] == []
 
 
 def test_the_odd_test_would_move_the_line() -> None:
