@@ -190,6 +190,52 @@ def test_the_physics_of_the_guide_works(tmp_path: Path, monkeypatch: pytest.Monk
     outcome = asp.run(document, parts=[guide.VoltagePart])
     assert outcome.converged
     assert outcome.values["electric_force"] == outcome.result.require("voltage").electric_force > 0.0
+    asp.save(guide.result, tmp_path / "r.nc")
+    again = asp.load(tmp_path / "r.nc")
+    assert again.problem.physics == guide.problem.physics
+    assert again.require("voltage").attraction.tobytes() == found.attraction.tobytes()
+
+
+@dataclass(frozen=True)
+class Brush(Glue):
+    """Bristles that push apart what is nearer than their length, the ``stretch``."""
+
+    attracts: ClassVar[bool] = False
+
+    def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
+        yield BrushCoupling(self, operator, how.tolerances.get("glue", 1e-7))
+
+
+@dataclass(frozen=True)
+class BrushCoupling(GlueCoupling):
+    """A glue of the other sign."""
+
+    def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
+        target = -self.glue.stiffness * np.maximum(self.glue.stretch - contact.gap, 0.0)
+        residual = float(np.abs(target - exchange.x).max()) / (self.glue.stiffness * self.glue.stretch)
+        return replace(exchange, target=target, residual=residual)
+
+
+def test_what_pushes_the_bodies_apart_carries_its_part_and_not_more() -> None:
+    """Flat bodies: where the bristles bear the whole load the solids do not touch, which a coupling
+    that holds none apart cannot find; it is not said to be converged."""
+    flat, brush = asp.Surface(np.zeros((8, 8)), 10e-9, periodic=True), Brush(1e15, 5e-9)
+    posed = asp.ContactProblem(flat, SOLID, physics=[brush])
+    pressed = asp.solve(posed, asp.MeanPressure(20e6))
+    assert pressed.mean_pressure == pytest.approx(15e6, rel=1e-9)
+    with pytest.raises(asp.ConvergenceError):
+        asp.solve(posed, asp.MeanPressure(4e6))
+
+
+def test_a_coupling_has_the_compliance_of_its_step_of_time() -> None:
+    """After a long time the body has relaxed to the soft solid that it is then."""
+    body, load = asp.Viscoelastic.standard_linear(10e9, 20e9, 1.0, 0.3), asp.MeanPressure(20e6)
+    held = asp.History([load, asp.Step(load, duration=0.5), asp.Step(load, duration=100.0)])
+    glue = Glue(GLUE.stiffness, 30e-9)
+    found = asp.solve(asp.ContactProblem(wave(), body, physics=[glue]), held)
+    soft = asp.solve(asp.ContactProblem(wave(), asp.Elastic(10e9, 0.3), physics=[glue]), load)
+    assert found.last.mean_gap == pytest.approx(soft.mean_gap, rel=1e-5)
+    assert found.last.force == pytest.approx(soft.force, rel=1e-5)
 
 
 def test_it_does_not_roll_unless_it_says_so() -> None:

@@ -5,6 +5,9 @@ from __future__ import annotations
 
 import importlib
 import json
+import os
+import re
+import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -18,6 +21,7 @@ from refusals import subject_of
 from study_cases import PROBLEM, InProcess, plan
 
 import asperity as asp
+from asperity.cli.main import BAD_INPUT
 from asperity.core.quantity import Quantity
 from asperity.core.registry import PARTS, home
 from asperity.core.settings import Settings, setting
@@ -201,3 +205,35 @@ def test_run_refuses_parts_that_cannot_be_used(own: object) -> None:
     with pytest.raises(asp.InputError) as caught:
         asp.run(PROBLEM, parts=own if isinstance(own, list) else [own])
     assert caught.value.subject == "part of one's own"
+
+
+def test_the_physics_of_the_guide_is_installed(matrix: Path, tmp_path: Path) -> None:
+    """Commands without it go on, what its table must have is asked for by the name of the option,
+    and another process reads its files without an import."""
+    page = (Path(__file__).parents[2] / "docs/develop/own-physics.md").read_text(encoding="utf-8")
+    pieces = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    site = tmp_path / "site"
+    info = site / "voltage-1.0.dist-info"
+    info.mkdir(parents=True)
+    code = "\n".join(piece for piece in pieces if "asp.solve(" not in piece)
+    (site / "voltage.py").write_text(code, encoding="utf-8")
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: voltage\nVersion: 1.0\n", encoding="utf-8")
+    (info / "entry_points.txt").write_text("[asperity.parts]\nvoltage = voltage:VoltagePart\n", encoding="utf-8")
+    paths = os.pathsep.join([str(site), *filter(None, sys.path)])
+
+    def program(*arguments: object) -> subprocess.CompletedProcess[str]:
+        command = [sys.executable, "-m", "asperity", *map(str, arguments)]
+        environment = {**os.environ, "PYTHONPATH": paths}
+        return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=240, check=False)
+
+    contact = ("contact", matrix, *SCALE, *BODY, *LOAD)
+    assert program(*contact).returncode == 0
+    lacking = program(*contact, "--electrostatic-volts", "10V")
+    assert (lacking.returncode, lacking.stderr.count("--electrostatic-thickness")) == (BAD_INPUT, 1)
+    done = program(
+        *contact, "--electrostatic-volts", "10V", "--electrostatic-thickness", "5nm", "--out", tmp_path / "run"
+    )
+    assert done.returncode == 0, done.stderr
+    read = program("export", tmp_path / "run" / "result.nc", "--csv", tmp_path / "again.csv")
+    assert read.returncode == 0, read.stderr
+    assert "electric_force," in (tmp_path / "again.csv").read_text(encoding="utf-8")

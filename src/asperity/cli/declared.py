@@ -149,7 +149,9 @@ def part_options(*names: str, basic: Iterable[str] = ()) -> tuple[Option, ...]:
         if part.settings is not None and (not names or part.name in names):
             own = type(part).__module__.partition(".")[0] == "asperity"
             prefix = "" if own else f"{part.name.replace('_', '-')}-"
-            made = options_of(part.settings, (part.table,), panel=part.title, prefix=prefix)
+            # what a table must have, it must have where it is asked for
+            every = options_of(part.settings, (part.table,), panel=part.title, prefix=prefix)
+            made = [replace(option, required=False) for option in every]
             first = {*basic, *(option.name for option in made if option.path[-1] in part.basic)}
             found += sorted_out(made, first) if own and basic else made
     return tuple(found)

@@ -130,12 +130,13 @@ def certify(
 
 
 def imbalance(contact: Contact, pulled: float) -> float:
-    """``load_imbalance`` of a ``contact`` whose menisci and adhesion pull with this force (N)."""
+    """``load_imbalance`` of a ``contact`` whose couplings pull with this force (N), negative where
+    they push the bodies apart."""
     posed, control = contact.posed, contact.posed.control
     wanted = posed.external_force
     if isinstance(control, FixedGrips) and math.isfinite(control.stiffness):
         wanted = control.stiffness * (control.value - posed.top - contact.level)
     if wanted is None:
         return 0.0
-    whole = abs(wanted) + pulled
+    whole = abs(wanted) + abs(pulled)
     return abs(contact.force - pulled - wanted) / whole if whole > 0.0 else 0.0

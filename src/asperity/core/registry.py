@@ -130,6 +130,10 @@ PHYSICS: Mapping[str, Known] = MappingProxyType(
 )
 """Every physics of this package by its keyword, in the order in which couplings are prepared."""
 
+GROUP = "asperity.parts"
+"""Entry points of packages that add parts; each names a ``Part``, the class or an instance of
+it."""
+
 PARTS = (
     "parts.contact:Contact",
     "physics.friction.part:Friction",

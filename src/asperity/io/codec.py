@@ -26,7 +26,7 @@ from ..contact.answer import Answer
 from ..core.errors import FileFormatError
 from ..core.quantity import COLUMNS, Labelled, Quantity, stored_quantities
 from ..core.registry import ANSWERS, home
-from .description import describe, kind_name, rebuild, subclasses
+from .description import describe, import_of_package, kind_name, rebuild, subclasses
 from .tree import Node, Stack
 
 COUNT = "_count"
@@ -45,7 +45,8 @@ GRID_AXES = ("x", "y")
 
 def answer_kind(name: str) -> type[Answer]:
     """The kind of answer of this qualified ``name``: one of this package, or one of one's own that
-    has been imported; for no other is anything imported.
+    has been imported or is of an installed package that adds parts; for no other is anything
+    imported.
 
     Raises
     ------
@@ -57,6 +58,9 @@ def answer_kind(name: str) -> type[Answer]:
         found: type[Answer] = home(own[name])
         return found
     kinds = {kind_name(kind): kind for kind in subclasses(Answer)}
+    if name not in kinds:
+        import_of_package(name)
+        kinds = {kind_name(kind): kind for kind in subclasses(Answer)}
     if name not in kinds:
         known = ", ".join(sorted({*own, *kinds}))
         raise FileFormatError(

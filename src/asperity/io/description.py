@@ -7,6 +7,7 @@ import functools
 import math
 import platform
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import fields, is_dataclass
 from datetime import UTC, datetime
 from importlib import metadata
@@ -24,7 +25,7 @@ from ..contact.result import ContactResult
 from ..contact.tangential import Tangential
 from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
-from ..core.registry import DESCRIBED, PHYSICS, home
+from ..core.registry import DESCRIBED, GROUP, PHYSICS, home
 from ..core.spectral import fft_library
 from ..solids.elastic import Conduction, Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
@@ -70,14 +71,24 @@ def _without_physics(name: str) -> Mapping[str, type]:
 
 
 def known_types() -> dict[str, type]:
-    """All types that can be written by name, those of a physics of one's own by qualified name;
-    that must have been imported."""
+    """All types that can be written by name, those of a physics of one's own by qualified name,
+    once that has been imported."""
     own = (kind for known in PHYSICS.values() for kind in home(known.home).types)
     found = {kind.__name__: kind for kind in (*TYPES, *map(home, DESCRIBED), *own)}
     for physics in subclasses(Physics):
         if not physics.__module__.startswith("asperity."):
             found |= {kind_name(kind): kind for kind in (physics, *physics.types)}
     return found
+
+
+def import_of_package(place: str) -> None:
+    """Import the parts that an installed package adds, of which the type at this ``place`` is, such
+    as ``hot_spots.law:Glue``; nothing if none is, or it cannot be imported."""
+    package = place.partition(":")[0].partition(".")[0]
+    for entry in metadata.entry_points(group=GROUP):
+        if entry.module.partition(".")[0] == package:
+            with suppress(Exception):  # what ``parts()`` warns of
+                entry.load()
 
 
 def kind_name(kind: type) -> str:
@@ -131,7 +142,8 @@ def describe(value: object, arrays: dict[str, RealArray] | None = None, name: st
             return {"type": name_of, **{key: describe(item, arrays, f"{kind}_{key}") for key, item in entries.items()}}
     raise InputError(
         f"every part of a result to be saved must be one of {', '.join(sorted(kinds))}, numbers "
-        f"or text, but {name or 'one'} is {type(value).__name__}; export its fields instead."
+        f"or text, but {name or 'one'} is {type(value).__name__}; export its fields instead. Of a physics of your own "
+        "name its types in `types` of that."
     )
 
 
@@ -156,9 +168,13 @@ def rebuild(description: Any, arrays: Mapping[str, RealArray] | None = None) -> 
     name = description.get("type")
     kinds = _without_physics(name) if isinstance(name, str) else {}
     kinds = kinds or known_types()
+    if isinstance(name, str) and name not in kinds and ":" in name:
+        import_of_package(name)
+        kinds = known_types()
     if not isinstance(name, str) or name not in kinds:
         raise FileFormatError(
-            f"type in a result file must be one of {', '.join(sorted(kinds))}, but is {name!r}; update asperity."
+            f"type in a result file must be one of {', '.join(sorted(kinds))}, but is {name!r}; import what defines "
+            "it, or update asperity."
         )
     return kinds[name](**{key: rebuild(item, arrays) for key, item in description.items() if key != "type"})
 

@@ -9,12 +9,8 @@ from collections.abc import Iterable
 from importlib import metadata
 
 from ..core.errors import InputError
-from ..core.registry import PARTS, home
+from ..core.registry import GROUP, PARTS, home
 from .part import Part
-
-GROUP = "asperity.parts"
-"""Entry points of packages that add parts; each names a ``Part``, the class or an instance of
-it."""
 
 
 @functools.cache

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple, Protocol, TypeAlias, runtime_checkable
 
@@ -362,8 +362,10 @@ class Coupling(Protocol):
         return None
 
     def at(self, operator: Operator) -> Coupling:
-        """The same with another ``operator`` of the bodies, that of a step of time."""
-        return self
+        """The same with another ``operator`` of the bodies, that of a step of time, in its field of
+        this name, if it has one."""
+        own = is_dataclass(self) and any(field.name == "operator" for field in fields(self))
+        return replace(self, operator=operator) if own else self  # type: ignore[type-var]
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """Exchange before the first round, from the ``memory`` of the step before (empty for a

@@ -142,10 +142,6 @@ class AdhesionCoupling(Coupling):
         )
         return cls(problem.adhesion, operator, problem.contact_modulus, conserves, solver, tolerance)
 
-    def at(self, operator: Operator) -> Self:
-        """The same of bodies with this ``operator``."""
-        return replace(self, operator=operator)
-
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The attraction that is remembered, followed to this load or position."""
         before = _Before()

@@ -171,10 +171,6 @@ class FluidCoupling(Coupling):
     settled_text: ClassVar[str] = "The pressure of the fluid is steady"
     unsettled_text: ClassVar[str] = "The pressure of the fluid still changes by {change:.1e} of the traction"
 
-    def at(self, operator: Operator) -> FluidCoupling:
-        """The same of bodies with this ``operator``."""
-        return replace(self, operator=operator)
-
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The pressure remembered; of a first load the even fall, and not more than half of the
         load."""
