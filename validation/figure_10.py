@@ -195,7 +195,7 @@ def page(realisations: int = 3, loads: tuple[float, ...] = LOADS) -> Page:
         ),
         claims=(
             *_claims(whole, cut, loads),
-            Claim("readings on which all three slopes are within 5 %", counts["close"], 1, 2),
+            Claim("readings on which all three slopes are within 5 %, of twelve", counts["close"], high=2),
             Claim(
                 "slope with interaction counted once over that without at any load: reported 1.18, largest",
                 max(

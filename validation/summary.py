@@ -99,9 +99,12 @@ class Number:
 
     @property
     def work(self) -> str:
-        """The work that it comes from: after "after" at the end of the source, else up to its first
-        comma."""
-        return self.source.rpartition(", after ")[2] if ", after " in self.source else self.source.partition(",")[0]
+        """The work that it comes from: after "after" at the end of the source, else up to its year,
+        or where it has none to its first comma."""
+        if ", after " in self.source:
+            return self.source.rpartition(", after ")[2]
+        dated = re.match(r".*?\b\d{4}\b", self.source)
+        return dated[0] if dated else self.source.partition(",")[0]
 
 
 @dataclass(frozen=True)

@@ -63,11 +63,11 @@ def test_a_bound_of_a_page_is_kept_or_not():
 
 def test_published_numbers_of_a_page_are_found():
     one = Published("a book, fig. 3, after a paper 1999", "stress", "0.55", 0.53, rests_on="load", shared="film")
-    other = Published("a book, fig. 4", "stress", "0.57", 0.53)
+    other = Published("One, Two & Three 1999, fig. 4", "stress", "0.57", 0.53)
     found = summary.numbers("page", Page("t", "a", (), (), (one, other)).markdown())
     assert [(one.work, one.theirs, one.ours, one.rests_on, one.shared) for one in found] == [
         ("a paper 1999", "0.55", "0.53", "load", "film"),
-        ("a book", "0.57", "0.53", "", ""),
+        ("One, Two & Three 1999", "0.57", "0.53", "", ""),
     ]
 
 
