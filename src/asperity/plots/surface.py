@@ -44,6 +44,9 @@ if TYPE_CHECKING:
 
 
 _CURVE_POINTS = 800  # of a material ratio curve, whose heights may be millions
+_DARKEST, _LEAST = 0.001, 1e-12
+"""Of a spectrum the share of its modes that are drawn darkest, and the least value over the
+largest: rounding lies below."""
 
 
 def plot_height_distribution(found: Characterisation, ax: Axes) -> Axes:
@@ -217,6 +220,32 @@ def plot_spectrum(found: Characterisation, ax: Axes) -> Axes:
     return ax
 
 
+def plot_spectrum_map(found: Characterisation, ax: Axes) -> Axes:
+    """Draw the two-dimensional power spectrum of ``found`` on ``ax``, logarithmic in colour, over
+    all directions; q and -q have the same."""
+    from matplotlib.colors import LogNorm
+
+    surface, power = found.surface, found.spectra.power
+    unit = scale(math.sqrt(min(surface.grid.spacing) * max(surface.size)), "m")
+    ax.set(xlabel=f"wavenumber along x (rad/{unit.symbol})", ylabel=f"wavenumber along y (rad/{unit.symbol})")
+    if power is None or min(surface.grid.shape) < 3 or not (power.psd > 0.0).any():
+        ax.text(0.5, 0.5, "no spectrum", transform=ax.transAxes, ha="center", va="center")
+        return ax
+    (nx, ny), (dx, dy) = power.grid.shape, power.grid.spacing
+    behind = power.psd[-np.arange(nx) % nx][:, ny - np.arange(ny // 2 + 1, ny)]
+    whole = np.roll(np.hstack([power.psd, behind]), (nx // 2, ny // 2), axis=(0, 1)) / unit.factor**4
+    largest = float(whole.max())
+    least = max(float(np.quantile(whole[whole > 0.0], _DARKEST)), largest * _LEAST)
+    (left, right), (low, high) = (
+        (-(count // 2 + 0.5) * step, (count - count // 2 - 0.5) * step)
+        for count, step in ((n, 2.0 * np.pi * unit.factor / (n * pixel)) for n, pixel in ((nx, dx), (ny, dy)))
+    )
+    norm = LogNorm(least, largest, clip=True)
+    image = ax.imshow(whole.T, origin="lower", extent=(left, right, low, high), norm=norm, cmap="magma")
+    ax.figure.colorbar(image, ax=ax, label=f"C ({unit.symbol}$^4$)")
+    return ax
+
+
 def plot_scale_dependence(found: Characterisation, ax: Axes) -> Axes:
     """Draw rms slopes (left) and curvatures (right) of profiles against the length of the stencil
     on ``ax``."""
@@ -277,6 +306,13 @@ SURFACE_PLOTS = (
         "Power spectrum",
         "Radial mean of the power spectrum and the fitted model; the range of the fit is shaded.",
         plot_spectrum,
+    ),
+    Plot(
+        "spectrum_map",
+        "Power spectrum by direction",
+        "Two-dimensional power spectrum: round if the surface is the same in all directions.",
+        plot_spectrum_map,
+        "map",
     ),
     Plot(
         "autocorrelation",

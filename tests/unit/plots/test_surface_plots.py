@@ -25,6 +25,7 @@ NAMES = (
     "distribution",
     "material_ratio",
     "spectrum",
+    "spectrum_map",
     "autocorrelation",
     "scale_dependence",
     "summits",
@@ -92,6 +93,23 @@ def is_a_picture(content: bytes) -> None:
     assert min(picture.size) > 200
     assert max(picture.size) < 2400
     assert np.asarray(picture.convert("L")).std() > 1.0  # something is drawn
+
+
+def test_the_spectrum_by_direction_has_its_waves_where_they_are(ax: Axes) -> None:
+    """Waves of 4 and -3 periods: two points of the map, opposite each other."""
+    nx, ny, pixel = 24, 18, 1e-8
+    x, y = np.arange(nx)[:, None] / nx, np.arange(ny)[None, :] / ny
+    surface = asp.Surface(1e-9 * np.cos(2.0 * np.pi * (4 * x - 3 * y)), pixel, periodic=True)
+    plots.plot_spectrum_map(asp.roughness.characterise(surface), ax)
+    (image,) = ax.images
+    values, (left, right, low, high) = np.asarray(image.get_array()), image.get_extent()
+    step_x, step_y = (right - left) / nx, (high - low) / ny
+    rows, columns = np.nonzero(values > 0.5 * values.max())
+    unit = 2.0 * np.pi / (nx * pixel) / step_x  # rad/m of one of the axis
+    found = sorted(zip(left + (columns + 0.5) * step_x, low + (rows + 0.5) * step_y, strict=True))
+    waves = [(unit * qx, unit * qy) for qx, qy in found]
+    expected = 2.0 * np.pi * np.array([4 / (nx * pixel), -3 / (ny * pixel)])
+    np.testing.assert_allclose(waves, [-expected, expected], rtol=1e-12)
 
 
 def test_the_standard_set(measured, tmp_path, monkeypatch):
