@@ -42,6 +42,7 @@ from asperity.solvers import (
     FixedOffset,
     GradientProjection,
     Lemke,
+    NogiKato,
     NonNegativeLeastSquares,
     QuasiNewton,
     Solution,
@@ -75,6 +76,7 @@ SOLVERS: dict[str, Solver] = {
     for solver in (
         ActiveSet(tolerance=1e-9),
         ConjugateGradient(tolerance=1e-10),
+        NogiKato(tolerance=1e-9),
         SteepestDescent(tolerance=1e-6),
         QuasiNewton(tolerance=1e-8),
         NonNegativeLeastSquares(),

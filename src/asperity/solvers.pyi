@@ -7,6 +7,7 @@ from .contact.solvers.reference.conjugate_gradient import ConjugateGradient
 from .contact.solvers.reference.dense import DenseActiveSet, Lemke
 from .contact.solvers.reference.gradient_projection import GradientProjection
 from .contact.solvers.reference.nnls import NonNegativeLeastSquares
+from .contact.solvers.reference.nogi_kato import NogiKato
 from .contact.solvers.reference.quasi_newton import QuasiNewton
 from .contact.solvers.reference.steepest_descent import SteepestDescent
 from .contact.state import InterfaceState
@@ -23,6 +24,7 @@ __all__ = [
     "GradientProjection",
     "InterfaceState",
     "Lemke",
+    "NogiKato",
     "NonNegativeLeastSquares",
     "QuasiNewton",
     "Rounds",

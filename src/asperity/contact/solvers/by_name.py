@@ -14,6 +14,7 @@ from .reference.conjugate_gradient import ConjugateGradient
 from .reference.dense import DenseActiveSet, Lemke
 from .reference.gradient_projection import GradientProjection
 from .reference.nnls import NonNegativeLeastSquares
+from .reference.nogi_kato import NogiKato
 from .reference.quasi_newton import QuasiNewton
 from .reference.steepest_descent import SteepestDescent
 
@@ -26,6 +27,7 @@ SOLVERS: Mapping[str, SolverClass] = MappingProxyType(
         for cls in (
             ActiveSet,
             ConjugateGradient,
+            NogiKato,
             SteepestDescent,
             QuasiNewton,
             NonNegativeLeastSquares,
