@@ -50,7 +50,7 @@ def test_designed_caps(row):
 def test_the_window_opens_at_the_critical_radius():
     window = RoughnessWindow(E, H, GAMMA, 1e-9, 0.1, 1e-6, 0.1)
     critical, deviation = window.critical_radius, window.critical_deviation
-    # the handbook of the project reads the crossing off as 1.5 µm and 4.5 nm
+    # read off the curves: 1.5 µm and 4.5 nm
     assert (critical, deviation) == pytest.approx((1.5e-6, 4.5e-9), rel=0.02)
     found = window.at_radius(np.array([0.99, 1.0, 1.01]) * critical)
     assert found.smallest[1] == pytest.approx(deviation, rel=1e-9)

@@ -3,7 +3,7 @@ moves.
 
 All of the derivative of the area is by the edge, and that of a conductance at given conductors:
 moved by dε, an edge at which the flux density is K/√d lets (2π/k_s) K² dε more through per length
-(eq. 6 of the handbook of sensitivities, with the conductivity for the modulus). How far it moves
+(as the work of a crack that grows, with the conductivity for the modulus). How far it moves
 follows from the adjoint solution of the contact for a smooth step at the edge (``EdgeArea``), each
 place weighted with the square of the flux density of the pixels there. On a grid that errs by how
 the edge lies between pixels, and near full contact, where the square of the pressure bends soon

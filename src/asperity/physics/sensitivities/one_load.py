@@ -177,7 +177,7 @@ class _Adjoint:
 
     @property
     def weight(self) -> RealArray:
-        """What dK p is multiplied with: (4) of the handbook of sensitivities."""
+        """What dK p is multiplied with: the output's own deflection less the adjoint solution."""
         weight = -self.solved.values
         return weight if self.slopes.deflected is None else weight + self.slopes.deflected
 

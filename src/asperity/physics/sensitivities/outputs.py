@@ -223,9 +223,8 @@ class SmoothArea:
 
 @dataclass(frozen=True)
 class EdgeArea:
-    """Real contact area in m² whose derivative is that by the edge that moves, dA = ∮ 2 c/b ds (eq.
-    5 of the handbook of sensitivities): of pressures b √d and their rates c/√d on the fixed set at
-    the distance d within the edge.
+    """Real contact area in m² whose derivative is that by the edge that moves, dA = ∮ 2 c/b ds:
+    of pressures b √d and their rates c/√d on the fixed set at the distance d within the edge.
 
     Within the edge u = p² is linear in d, and the edge moves by 2 c/b = du/|∇u|. A smooth step of
     u, zero at the edge and one from p = ``pressure`` on, takes the place of a step at the edge; it

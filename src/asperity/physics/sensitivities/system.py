@@ -53,8 +53,8 @@ class Solved(NamedTuple):
 @dataclass(frozen=True, eq=False)
 class FixedSet:
     """The operator K on the points ``free`` (nx, ny): the system K a + μ = r on them, with the sum
-    of a prescribed where the load is ``held``; at given position without μ (handbook of
-    sensitivities, eqs 2 and 3; Giles & Pierce 2000)."""
+    of a prescribed where the load is ``held``; at given position without μ (Giles &
+    Pierce 2000)."""
 
     operator: Operator
     free: BoolArray

@@ -199,8 +199,7 @@ def uncertainty(
 
     By the sensitivities, var ln J = Σ (n_k s_k)² + a · Σ_h a/J², n_k the relative sensitivities,
     s_k the standard deviations of the logarithms and a = dJ/dh. Samples of solved contacts show
-    what is not linear, with the prediction as control variate (handbook of sensitivities, section
-    10).
+    what is not linear, with the prediction as control variate.
 
     Parameters
     ----------

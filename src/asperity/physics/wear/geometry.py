@@ -25,7 +25,7 @@ that of the thickness that is left."""
 
 UNEVEN = 0.2
 """Standard deviation of the worn depth in the contact, over the thickness that is left, from which
-on a compliance of one thickness is doubtful (handbook of the project, transport, section 9)."""
+on a compliance of one thickness is doubtful."""
 
 _ROUNDING = 1e-12
 """Share of a thickness below which nothing is left of it."""

@@ -161,8 +161,8 @@ def worn(
     """Contact that wears as one body slides over the other.
 
     Every step is implicit in the pressure: the depth k p ds that it wears stands in the gap, so
-    that the contact is that of bodies on a bed of springs (backward Euler; handbook of the project,
-    transport, section 9). After each the contact of the worn surfaces is checked by itself.
+    that the contact is that of bodies on a bed of springs (backward Euler). After each the contact
+    of the worn surfaces is checked by itself.
 
     Parameters
     ----------
