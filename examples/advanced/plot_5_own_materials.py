@@ -3,7 +3,7 @@ Materials of your own
 =====================
 
 Keep what you have measured in one file, with its source, and ask for it by name. Here it also shows
-a law: an elastic contact knows its materials only by the ratio of pressure to modulus.
+a law: materials enter an elastic contact only by the ratio of pressure to modulus.
 """
 
 from pathlib import Path
