@@ -223,7 +223,7 @@ def test_tests_that_do_not_concern_it_pass(physics: str, tmp_path: Path) -> None
 
 
 @cache
-def test_files() -> tuple[tuple[Path, str], ...]:
+def files_of_tests() -> tuple[tuple[Path, str], ...]:
     """All files of tests and their texts."""
     return tuple((path, path.read_text(encoding="utf-8")) for path in (ROOT.parents[1] / "tests").rglob("*.py"))
 
@@ -256,8 +256,8 @@ def unconcerned(folders: frozenset[str]) -> Iterator[Path]:
     served = (rf"{module.rpartition('.')[2]}\b" for module in modules_without(folders))
     named = (*(rf"physics\.{name}\b" for name in folders), *(rf"\b{name}\b" for name in gone))
     words = re.compile("|".join([*named, *asked, *served]))
-    bad = {path.stem for path, text in test_files() if words.search(f"{path.stem}\n{text}")}
-    while more := {path.stem for path, text in test_files() if path.stem not in bad and bad & imported(text)}:
+    bad = {path.stem for path, text in files_of_tests() if words.search(f"{path.stem}\n{text}")}
+    while more := {path.stem for path, text in files_of_tests() if path.stem not in bad and bad & imported(text)}:
         bad |= more
     tests = ROOT.parents[1] / "tests"
     for place in FULL:
