@@ -18,7 +18,7 @@ from ..solids.layers import Body
 from ..surfaces.surface import Surface
 from .boundary import Boundary, Periodic
 from .operators import Operator, prepare_operator
-from .solvers.on_set import inverse_of_waves, solved_on
+from .solvers.on_set import Until, inverse_of_waves, solved_on
 
 _MISFIT = 1e-9
 """Largest misfit of the shape over the largest displacement or height that is an answer; usual ends
@@ -186,7 +186,7 @@ def _touched(surface: Surface, on: RealArray | BoolArray | None) -> BoolArray:
 def _solved(operator: Operator, shape: RealArray, touched: BoolArray, p: RealArray, *, balanced: bool) -> StampField:
     """Field that gives the surface the ``shape`` (m), where ``balanced`` but for a constant, from
     the pressure ``p`` on."""
-    inverse = inverse_of_waves(operator)
+    inverse, until = inverse_of_waves(operator), Until(_REDUCTION, _MOST_ROUNDS)
 
     def misfit(u: RealArray) -> RealArray:
         gap: RealArray = np.where(touched, u - shape, 0.0)
@@ -194,9 +194,7 @@ def _solved(operator: Operator, shape: RealArray, touched: BoolArray, p: RealArr
 
     u = operator.apply(p)
     for _ in range(_PASSES):
-        change, _rounds = solved_on(
-            operator, inverse, misfit(u), touched, balanced=balanced, reduction=_REDUCTION, most=_MOST_ROUNDS
-        )
+        change, _rounds = solved_on(operator, inverse, misfit(u), touched, balanced=balanced, until=until)
         p = p + change
         u = operator.apply(p)
     gap = misfit(u)

@@ -3,12 +3,20 @@ waves."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...core.arrays import BoolArray, RealArray
 from ..operators.convolution import Operator, PeriodicOperator, spectral_kernel
+
+
+class Until(NamedTuple):
+    """When conjugate gradients end: at this ``reduction`` of the residual, or after ``most``
+    products."""
+
+    reduction: float
+    most: int
 
 
 def inverse_of_waves(operator: Operator) -> Operator:
@@ -28,14 +36,13 @@ def solved_on(
     free: BoolArray,
     *,
     balanced: bool,
-    reduction: float,
-    most: int,
+    until: Until,
 ) -> tuple[RealArray, int]:
     """Change of pressure (Pa) on ``free`` that closes ``gap`` (m) there, about, and the products
-    with the ``operator`` that it took, ``most`` of them at most.
+    with the ``operator`` that it took.
 
     A ``balanced`` change sums to zero and closes the gap but for a constant. The residual, in the
-    norm of ``inverse`` (see ``inverse_of_waves``), ends at ``reduction`` times that at the start.
+    norm of ``inverse`` (see ``inverse_of_waves``), ends at the reduction of ``until``.
     """
 
     def on_free(field: RealArray) -> RealArray:
@@ -51,8 +58,8 @@ def solved_on(
     found, residual = np.zeros_like(gap), on_free(-gap)
     z = preconditioned(residual)
     direction, norm = z, float((residual * z).sum())
-    enough = reduction**2 * norm
-    for count in range(most):
+    enough = until.reduction**2 * norm
+    for count in range(until.most):
         response = on_free(operator.apply(direction))
         curvature = float((direction * response).sum())
         if not (norm > 0.0 and curvature > 0.0):
@@ -64,4 +71,4 @@ def solved_on(
         if norm <= enough:
             return found, count + 1
         direction = z + (norm / before) * direction
-    return found, most
+    return found, until.most

@@ -10,7 +10,7 @@ import numpy as np
 
 from ....core.arrays import BoolArray, RealArray
 from ...operators.convolution import Operator
-from ..on_set import inverse_of_waves, solved_on
+from ..on_set import Until, inverse_of_waves, solved_on
 from ..protocol import (
     ContactQP,
     FixedMean,
@@ -146,7 +146,7 @@ def _on_set(qp: ContactQP, state: SolverState, memory: _Memory) -> SolverState:
     if free.any():
         fixed = isinstance(qp.constraint, FixedMean)
         step, rounds = solved_on(
-            qp.operator, memory.inverse, gap, free, balanced=fixed, reduction=_REDUCTION, most=_MOST_ROUNDS
+            qp.operator, memory.inverse, gap, free, balanced=fixed, until=Until(_REDUCTION, _MOST_ROUNDS)
         )
         state = replace(
             state,
