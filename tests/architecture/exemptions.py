@@ -28,6 +28,7 @@ LIMITS: dict[str, dict[str, str]] = {
         ),
         "compliant_block": "a body, its size, push and interface, and keyword-only choices, each with a default",
         "cylinder_in_bore": "two bodies, three numbers of the fit, and keyword-only choices, each with a default",
+        "stamp_contact": "a stamp, its two bodies and boundary, one of two loads, and the points touched",
         "predict": "independent keyword-only choices of the user, each with a default",
         "uncertainty": "independent keyword-only choices of the user, each with a default",
         "read": "independent keyword-only choices of the user, each with a default",

@@ -10,6 +10,7 @@ from .line_contact import line_problem
 from .problem import ContactProblem, Flat
 from .result import ContactResult, Interference, complementary_energy, interference
 from .solve import Keep, solve, steps
+from .stamp import StampField, stamp_contact
 from .time_division import TimeSteps
 
 __all__ = [
@@ -36,6 +37,7 @@ __all__ = [
     "MeanPressure",
     "Periodic",
     "Pull",
+    "StampField",
     "Step",
     "TimeSteps",
     "Unloaded",
@@ -50,5 +52,6 @@ __all__ = [
     "review",
     "solve",
     "sphere_in_socket",
+    "stamp_contact",
     "steps",
 ]

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from ....core.arrays import BoolArray, RealArray
-from ...operators.convolution import Operator, PeriodicOperator, spectral_kernel
+from ...operators.convolution import Operator
+from ..on_set import Until, inverse_of_waves, solved_on
 from ..protocol import (
     ContactQP,
     FixedMean,
@@ -75,7 +76,7 @@ class GradientProjection(Iterative):
         deflection = qp.operator.apply(begin)
         # the longest wave yields most: no step can be shorter than the one that levels it
         step = 1.0 / qp.operator.largest if qp.operator.largest > 0.0 else 0.0
-        memory = _Memory(_inverse(qp.operator), levelling_step(qp), step)
+        memory = _Memory(inverse_of_waves(qp.operator), levelling_step(qp), step)
         return SolverState(begin, deflection, relative_error(qp, begin, deflection), applications=2, memory=memory)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
@@ -93,16 +94,6 @@ class GradientProjection(Iterative):
 def _counted(state: SolverState) -> SolverState:
     """``state`` after a step that led nowhere."""
     return replace(state, iterations=state.iterations + 1, applications=state.applications + 1)
-
-
-def _inverse(operator: Operator) -> Operator:
-    """Inverse of the compliance of the waves on the grid; the mean as the longest wave."""
-    periodic = operator.padded == operator.grid.shape
-    waves = np.array(operator.kernel if periodic else spectral_kernel(operator.compliance, operator.grid), dtype=float)
-    waves[0, 0] = 0.0
-    largest = float(waves.max()) or 1.0
-    waves[0, 0] = largest
-    return PeriodicOperator(operator.compliance, operator.grid, kernel=1.0 / np.maximum(waves, 1e-9 * largest))
 
 
 def _made_feasible(qp: ContactQP, trial: RealArray, free: BoolArray) -> RealArray:
@@ -153,7 +144,10 @@ def _on_set(qp: ContactQP, state: SolverState, memory: _Memory) -> SolverState:
     gap: RealArray = r - level(qp, p, r)
     free = ((p > 0.0) | (gap < 0.0)) & ((p < qp.cap) | (gap > 0.0))
     if free.any():
-        step, rounds = _solved_on(qp, memory.inverse, gap, free)
+        fixed = isinstance(qp.constraint, FixedMean)
+        step, rounds = solved_on(
+            qp.operator, memory.inverse, gap, free, balanced=fixed, until=Until(_REDUCTION, _MOST_ROUNDS)
+        )
         state = replace(
             state,
             applications=state.applications + rounds,
@@ -172,40 +166,3 @@ def _on_set(qp: ContactQP, state: SolverState, memory: _Memory) -> SolverState:
             step *= 0.5
     taken = descend(qp, state, memory.pixel_step)
     return replace(taken, extra_pairs=state.extra_pairs)
-
-
-def _solved_on(qp: ContactQP, inverse: Operator, gap: RealArray, free: BoolArray) -> tuple[RealArray, int]:
-    """Change of pressure (Pa) on ``free`` that closes ``gap`` (m) there, about, and the products
-    with the compliance that it took.
-
-    At prescribed load the change sums to zero and closes the gap but for a constant.
-    """
-    fixed = isinstance(qp.constraint, FixedMean)
-
-    def on_free(field: RealArray) -> RealArray:
-        found: RealArray = np.where(free, field, 0.0)
-        return found
-
-    uniform: Any = on_free(inverse.apply(free.astype(float))) if fixed else None
-
-    def preconditioned(residual: RealArray) -> RealArray:
-        z = on_free(inverse.apply(residual))
-        return z - (z.sum() / uniform.sum()) * uniform if fixed else z
-
-    found, residual = np.zeros_like(gap), on_free(-gap)
-    z = preconditioned(residual)
-    direction, norm = z, float((residual * z).sum())
-    enough = _REDUCTION**2 * norm
-    for count in range(_MOST_ROUNDS):
-        response = on_free(qp.operator.apply(direction))
-        curvature = float((direction * response).sum())
-        if not (norm > 0.0 and curvature > 0.0):
-            return found, count + 1
-        found = found + (norm / curvature) * direction
-        residual = residual - (norm / curvature) * response
-        z = preconditioned(residual)
-        before, norm = norm, float((residual * z).sum())
-        if norm <= enough:
-            return found, count + 1
-        direction = z + (norm / before) * direction
-    return found, _MOST_ROUNDS
