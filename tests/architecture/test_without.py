@@ -52,9 +52,9 @@ EVERY = 40
 for each physics."""
 
 
-OF_ALL = ("test_every_reference_is_named_by_the_code", "test_examples")
+OF_ALL = ("test_every_reference_is_named_by_the_code", "test_examples", "test_format2")
 """Tests, and files of them, of the whole package that no physics can be left out of: papers are
-listed whoever rests on them, examples are of several physics."""
+listed whoever rests on them, examples and files of an older version are of several physics."""
 
 
 def left_out(physics: str) -> frozenset[str]:
