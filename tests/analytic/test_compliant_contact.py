@@ -66,6 +66,13 @@ def test_a_hard_interface_leads_to_the_contact_without_one() -> None:
     assert missing[0] / missing[1] == pytest.approx(10.0, rel=0.2)
 
 
+def test_what_the_interface_does_not_know_is_refused() -> None:
+    surface = asp.Surface(np.zeros((4, 4)), 1.0, 1.0, periodic=True)
+    for more in ({"friction": asp.Coulomb(0.3)}, {"law": asp.Hardness(0.5)}):
+        with refused(asp.InputError, "problem of a compliant interface"):
+            compliant_contact(asp.ContactProblem(surface, BODY, **more), CompliantInterface(1.0, 2.0), 0.1)
+
+
 def test_without_an_approach_there_is_nothing_to_press() -> None:
     problem = asp.ContactProblem(asp.Surface(np.zeros((4, 4)), 1.0, 1.0, periodic=True), BODY)
     with refused(asp.InputError, "approach of the interface (m)"):

@@ -8,9 +8,10 @@ import numpy as np
 
 from ..core import require
 from ..core.arrays import RealArray
-from ..core.errors import ConvergenceError
+from ..core.errors import ConvergenceError, InputError
 from ..core.quantity import measured
 from ..solids.compliant_interface import CompliantInterface
+from .law import HardWall
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem
 
@@ -64,7 +65,8 @@ def compliant_contact(problem: ContactProblem, interface: CompliantInterface, ap
     Parameters
     ----------
     problem
-        Of elastic or layered bodies; its physics of the interface are left out.
+        Of elastic or layered bodies, without other physics of the interface and without a limit of
+        the pressure.
     interface
         Its law.
     approach
@@ -74,7 +76,7 @@ def compliant_contact(problem: ContactProblem, interface: CompliantInterface, ap
     Raises
     ------
     InputError
-        If the approach is not positive.
+        If the approach is not positive, or the problem has what the interface does not know.
     ConvergenceError
         If Newton's method does not settle.
 
@@ -90,6 +92,12 @@ def compliant_contact(problem: ContactProblem, interface: CompliantInterface, ap
     '23 MPa over 33%'
     """
     require.positive(approach, "approach of the interface (m)")
+    if problem.physics or not isinstance(problem.law, HardWall):
+        more = ", ".join(type(item).__name__ for item in (*problem.physics, problem.law))
+        raise InputError(
+            f"problem of a compliant interface must have the bodies alone, but has {more}. Leave out its physics and "
+            "its limit of the pressure."
+        )
     operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
     profile = problem.profile()
     wanted: RealArray = approach - (profile.max() - profile)
