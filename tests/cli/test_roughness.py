@@ -99,7 +99,7 @@ def test_the_page_stands_alone(run: Runner, film: Path, tmp_path: Path) -> None:
     page = Page()
     page.feed(source)
     assert page.open == []
-    assert len(page.pictures) == 8
+    assert len(page.pictures) == len(asp.plots.SURFACE_PLOTS)
     assert all(picture.startswith("data:image/png;base64,") for picture in page.pictures)
     assert not re.search(r"""(?:src|href)=["'](?!data:|#)""", source)
     for text in ("film.npy", "ISO 25178-2", "SHA-256"):
@@ -110,7 +110,7 @@ def test_the_page_stands_alone(run: Runner, film: Path, tmp_path: Path) -> None:
 def test_all_pictures(run: Runner, film: Path, tmp_path: Path) -> None:
     folder = tmp_path / "pictures"
     assert run("info", film, *FILM, "--plots", folder).exit_code == 0
-    assert len(list(folder.glob("*.png"))) == 8
+    assert len(list(folder.glob("*.png"))) == len(asp.plots.SURFACE_PLOTS)
 
 
 def test_a_tip(run: Runner, film: Path) -> None:

@@ -42,7 +42,7 @@ def test_the_guide_runs(scan, tmp_path, monkeypatch, capsys):
         text = block.replace('asp.read("scan.di")', "scan_of_the_reader")
         exec(compile(text, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
     assert (tmp_path / "roughness.html").exists()
-    assert len(list((tmp_path / "pictures").glob("*.png"))) == 8
+    assert len(list((tmp_path / "pictures").glob("*.png"))) == len(asp.plots.SURFACE_PLOTS)
     assert "heights.Sq" in capsys.readouterr().out
     more = names["more"]
     assert isinstance(more, asp.Surface)

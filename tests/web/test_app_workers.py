@@ -42,7 +42,7 @@ def answer(limits: Limits, task: dict[str, Any], then: Any = None) -> list[dict[
             found = [await worker.call("surface", **task)]
             if then is not None:
                 call = asyncio.create_task(
-                    worker.call("surface", **task | {"table": {**SURFACE, "points": "2000x2000"}})
+                    worker.call("surface", **task | {"table": {**SURFACE, "points": "6000x6000"}})
                 )
                 await asyncio.sleep(0.15)
                 then(worker)

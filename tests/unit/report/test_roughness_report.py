@@ -55,7 +55,7 @@ def test_a_page_of_every_surface(surface, tmp_path):
     path = tmp_path / "page.html"
     write_roughness_report(asp.characterise(surface), path)
     text = path.read_text(encoding="utf-8")
-    assert text.count("<img ") == 8
+    assert text.count("<img ") == len(asp.plots.SURFACE_PLOTS)
     assert not re.search(r"\bnan\b", text)
 
 
@@ -138,4 +138,4 @@ def test_comparison_where_there_is_nothing_to_compare():
 def test_public_functions(found, tmp_path: Path, monkeypatch):
     monkeypatch.setattr("asperity.plots.picture.png", lambda *a, **k: b"")
     asp.report.write_roughness_report(found, tmp_path / "page.html")
-    assert len(asp.plots.save_roughness_plots(found, tmp_path / "pictures")) == 8
+    assert len(asp.plots.save_roughness_plots(found, tmp_path / "pictures")) == len(asp.plots.SURFACE_PLOTS)
