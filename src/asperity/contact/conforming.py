@@ -11,6 +11,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import ConvergenceError, InputError
+from ..core.quadrature import rule
 from ..core.quantity import measured
 from ..solids.elastic import Elastic, Rigid
 
@@ -173,7 +174,7 @@ def sphere_in_socket(
     require.integer(points, 16, "points of the socket")
     if points > MOST_POINTS:
         raise InputError(f"points of the socket must be at most {MOST_POINTS}, but is {points}.")
-    cosine, weight = np.polynomial.legendre.leggauss(points)
+    cosine, weight = rule(points)
     cosine, weight = cosine[::-1], weight[::-1]
     legendre = np.polynomial.legendre.legvander(cosine, points - 1)
     n = np.arange(points * 1.0)

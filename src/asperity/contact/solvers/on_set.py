@@ -22,11 +22,18 @@ class Until(NamedTuple):
 def inverse_of_waves(operator: Operator) -> Operator:
     """Inverse of the compliance of the waves on the grid; the mean as the longest wave."""
     periodic = operator.padded == operator.grid.shape
-    waves = np.array(operator.kernel if periodic else spectral_kernel(operator.compliance, operator.grid), dtype=float)
-    waves[0, 0] = 0.0
-    largest = float(waves.max()) or 1.0
-    waves[0, 0] = largest
-    return PeriodicOperator(operator.compliance, operator.grid, kernel=1.0 / np.maximum(waves, 1e-9 * largest))
+    waves = operator.kernel if periodic else spectral_kernel(operator.compliance, operator.grid)
+    return inverse_by(waves, operator)
+
+
+def inverse_by(waves: RealArray, operator: Operator) -> Operator:
+    """Inverse on the grid of ``operator`` of the compliances (m/Pa) of its ``waves``; the mean as
+    the longest wave."""
+    kernel = np.array(waves, dtype=float)
+    kernel[0, 0] = 0.0
+    largest = float(kernel.max()) or 1.0
+    kernel[0, 0] = largest
+    return PeriodicOperator(operator.compliance, operator.grid, kernel=1.0 / np.maximum(kernel, 1e-9 * largest))
 
 
 def solved_on(

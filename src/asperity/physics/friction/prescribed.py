@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...contact.boundary import Boundary, Periodic
-from ...contact.operators import Operator, prepare_operator
-from ...contact.operators.convolution import PeriodicOperator
+from ...contact.operators import prepare_operator
+from ...contact.solvers.on_set import inverse_by
 from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import ConvergenceError, InputError
@@ -232,7 +232,8 @@ def bonded_contact(
         return out
 
     traction = np.zeros_like(wanted)
-    inverses = _inverses(tangential, normal)
+    tensor = tangential.compliance.tensor(grid)
+    inverses = [inverse_by(waves, normal) for waves in (tensor.xx, tensor.yy, tensor.zz)]  # each for itself
     for _ in range(2):  # the second on the residual computed anew
         residual = np.where(bonded, wanted - moved(traction), 0.0)
         direction, norm, start = np.zeros_like(residual), 0.0, 0.0
@@ -254,21 +255,6 @@ def bonded_contact(
     if not left <= _MISFIT * size:
         raise ConvergenceError(f"The bonded points miss their displacement by {left:.1e} m, of {size:.1e} m.", field)
     return field
-
-
-def _inverses(tangential: TangentialOperator, normal: Operator) -> tuple[Operator, ...]:
-    """Inverse of the compliance of the waves of a periodic cell, each component for itself."""
-    grid = tangential.grid
-    tensor = tangential.compliance.tensor(grid)
-
-    def inverse(waves: RealArray) -> Operator:
-        kernel = np.array(waves, dtype=float)
-        kernel[0, 0] = 0.0
-        largest = float(kernel.max()) or 1.0
-        kernel[0, 0] = largest
-        return PeriodicOperator(normal.compliance, grid, kernel=1.0 / np.maximum(kernel, 1e-9 * largest))
-
-    return inverse(tensor.xx), inverse(tensor.yy), inverse(tensor.zz)
 
 
 def _vectors(values: ArrayLike, components: int, grid: Grid, what: str) -> RealArray:
